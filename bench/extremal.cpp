@@ -1,0 +1,121 @@
+// Seconds of one harmonic map and of the extremal map of the same mesh, their ratio, and the peak memory of both.
+//
+//     bench_extremal [TRIANGLES...]        default: 10000 100000 1000000
+//
+// Every measurement runs in a process of its own, so that peak memory is its own. Times are those of the JSON record:
+// harmonic = operators, ordering, analysis, assembly, factorisation and solution, median of three; extremal = everything
+// between the loaded mesh and the result: diagnosis, topology, flattening, iteration, distortion and bounds.
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include <beltrami/beltrami.h>
+#include <beltrami/linear/symmetric_solver.h>
+#include <beltrami/maps/beltrami_solver.h>
+#include <beltrami/maps/timing.h>
+#include <beltrami/mesh/parallel.h>
+
+namespace {
+
+using namespace beltrami;
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+/// The cases: a planar disk sent to three lobes, and a bump in space whose boundary runs unevenly around the disk.
+Mesh mesh_of(const std::string& name, int triangles) {
+    Mesh mesh = disk(disk_rings_for_triangles(triangles));
+    if (name == "lobes") return mesh;
+    Mesh bump;
+    bump.faces = std::move(mesh.faces);
+    bump.positions.resize(mesh.vertex_count(), 3);
+    for (int v = 0; v < mesh.vertex_count(); ++v) {
+        const double x = mesh.positions(v, 0), y = mesh.positions(v, 1);
+        bump.positions.row(v) << x, y, 0.6 * std::exp(-4 * ((x - 0.2) * (x - 0.2) + y * y)) + 0.1 * std::sin(5 * x + 3 * y);
+    }
+    return bump;
+}
+
+BoundaryCondition boundary_of(const std::string& name, const Surface& surface) {
+    if (name != "lobes") return boundary_to_disk(surface, 0.7);
+    BoundaryCondition boundary;
+    for (const int v : surface.topology.boundary_loops[0]) {
+        const double t = std::atan2(surface.mesh.positions(v, 1), surface.mesh.positions(v, 0));
+        boundary.pin(v, std::polar(1 + 0.45 * std::cos(3 * t), t + 0.4 * std::sin(t) + 0.1 * std::sin(3 * t)));
+    }
+    return boundary;
+}
+
+struct Measurement {
+    double seconds = 0, k = 0, std = 0;
+    int faces = 0, flipped = 0, iterations = 0, factorizations = 0;
+    long peak_kib = 0;
+};
+
+/// Runs a measurement in a child process.
+template <class Work>
+Measurement in_child(Work&& work) {
+    int ends[2];
+    if (pipe(ends) != 0) throw std::runtime_error("no pipe");
+    const pid_t child = fork();
+    if (child == 0) {
+        const Measurement m = work();
+        const bool written = write(ends[1], &m, sizeof m) == sizeof m;
+        _exit(written ? 0 : 1);
+    }
+    close(ends[1]);
+    Measurement m;
+    const bool read_all = read(ends[0], &m, sizeof m) == sizeof m;
+    close(ends[0]);
+    rusage usage{};
+    int status = 0;
+    wait4(child, &status, 0, &usage);
+    if (!read_all || status != 0) throw std::runtime_error("a measurement failed");
+    m.peak_kib = usage.ru_maxrss;
+    return m;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    std::vector<int> sizes;
+    for (int i = 1; i < argc; ++i) sizes.push_back(std::stoi(argv[i]));
+    if (sizes.empty()) sizes = {10'000, 100'000, 1'000'000};
+    fmt::print("{}\n\n| case | triangles | harmonic s | extremal s | ratio | iterations | factorisations | k | flips | harmonic MiB | extremal MiB | ratio |\n"
+               "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n",
+               linear_backend());
+    for (const std::string name : {"lobes", "bump"})
+        for (const int size : sizes) {
+            const Measurement harmonic = in_child([&] {
+                const Surface surface(mesh_of(name, size));
+                Measurement m;
+                m.seconds = harmonic_seconds(surface, boundary_of(name, surface));
+                return m;
+            });
+            const Measurement extremal = in_child([&] {
+                Mesh mesh = mesh_of(name, size);
+                Measurement m;
+                const double start = now();
+                const Surface surface(std::move(mesh));
+                const ExtremalMap result = extremal_map(surface, boundary_of(name, surface));
+                m.seconds = now() - start;
+                m.k = result.k;
+                m.faces = surface.mesh.face_count();
+                m.flipped = static_cast<int>(result.distortion.flipped.size());
+                m.iterations = result.iterations;
+                m.factorizations = result.factorizations;
+                return m;
+            });
+            fmt::print("| {} | {} | {:.3f} | {:.3f} | {:.1f} | {} | {} | {:.5f} | {} | {} | {} | {:.2f} |\n", name, extremal.faces, harmonic.seconds,
+                       extremal.seconds, extremal.seconds / harmonic.seconds, extremal.iterations, extremal.factorizations, extremal.k,
+                       extremal.flipped, harmonic.peak_kib / 1024, extremal.peak_kib / 1024,
+                       static_cast<double>(extremal.peak_kib) / static_cast<double>(harmonic.peak_kib));
+            std::fflush(stdout);
+        }
+}

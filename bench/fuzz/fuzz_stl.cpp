@@ -1,0 +1,15 @@
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include <beltrami/io/read_mesh.h>
+#include <beltrami/mesh/error.h>
+
+/// Any bytes are either read or refused with an Error; everything else is a bug.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    try {
+        beltrami::read_stl({reinterpret_cast<const char*>(data), size}, "fuzz.stl");
+    } catch (const beltrami::Error&) {
+    }
+    return 0;
+}

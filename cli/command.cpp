@@ -1,0 +1,92 @@
+#include "command.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+
+#include <beltrami/io/atomic_file.h>
+#include <beltrami/io/read_mesh.h>
+#include <beltrami/mesh/error.h>
+#include <beltrami/mesh/parallel.h>
+
+namespace beltrami::cli {
+
+const char* const kExitCodes =
+    "Exit codes:\n"
+    "  0  done (read the warnings)            5  boundary data missing, contradictory or impossible\n"
+    "  1  internal error                      6  a linear system or an iteration failed\n"
+    "  2  wrong command line                  7  an output could not be written\n"
+    "  3  an input file could not be read     130  interrupted\n"
+    "  4  the mesh cannot carry the computation\n";
+
+int exit_code(Cause cause) {
+    switch (cause) {
+        case Cause::bad_option: return 2;
+        case Cause::unreadable: return 3;
+        case Cause::bad_mesh: return 4;
+        case Cause::bad_boundary: return 5;
+        case Cause::not_solved: return 6;
+        case Cause::unwritable: return 7;
+        case Cause::cancelled: return 130;
+    }
+    return 1;
+}
+
+void CommonOptions::add_to(CLI::App& app) {
+    app.add_option("--json", json, "write the record as JSON to FILE, or to standard output with -")->type_name("FILE");
+    app.add_option("--report", report, "write a self-contained HTML page to FILE")->type_name("FILE.html");
+    app.add_flag("--quiet", quiet, "print nothing but errors");
+    app.add_option_function<int>(
+           "--threads", [](int count) { set_thread_count(count); }, "use N threads; the result does not depend on it")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1024));
+}
+
+Mesh load(const std::string& path, std::vector<std::string>& warnings) {
+    LoadedMesh loaded = read_mesh(path);
+    warnings.insert(warnings.end(), loaded.warnings.begin(), loaded.warnings.end());
+    return std::move(loaded.mesh);
+}
+
+void add_findings(const std::vector<Finding>& findings, std::vector<std::string>& warnings) {
+    for (const Finding& finding : findings)
+        warnings.push_back(finding.next_step.empty() ? finding.sentence : finding.sentence + ": " + finding.next_step);
+}
+
+void finish(const Record& record, const CommonOptions& common, const std::string& method, const std::vector<std::string>& files) {
+    if (common.json == "-") {
+        fmt::print("{}", to_json(record));
+    } else if (!common.json.empty()) {
+        write_atomically(common.json, to_json(record));
+    }
+    if (common.may_print()) {
+        fmt::print("{}", to_table(record, method));
+        if (record.solve) fmt::print("{} after {} iterations\n", record.solve->termination, record.solve->iterations);
+        for (const std::string& file : files)
+            if (!file.empty() && file != "-") fmt::print("wrote {}\n", file);
+    }
+    if (!common.quiet)
+        for (const std::string& warning : record.warnings) fmt::print(stderr, "warning: {}\n", warning);
+    if (std::fflush(stdout) != 0) throw Error(Cause::unwritable, "standard output could not be written");
+}
+
+double seconds() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+Progress::Progress(bool wanted) : terminal_(wanted && isatty(STDERR_FILENO)) {}
+
+Progress::~Progress() {
+    if (used_) fmt::print(stderr, "\r\x1b[K");
+}
+
+void Progress::show(int iteration, double k) {
+    if (!terminal_) return;
+    fmt::print(stderr, "\riteration {}  k {:.6f}\x1b[K", iteration, k);
+    std::fflush(stderr);
+    used_ = true;
+}
+
+}  // namespace beltrami::cli

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+#include <beltrami/mesh/error.h>
+#include <beltrami/report/record.h>
+
+namespace beltrami::cli {
+
+/// What every subcommand offers: where the record goes, how much is said, how many threads.
+struct CommonOptions {
+    std::string json, report;
+    bool quiet = false;
+    int threads = 0;
+
+    void add_to(CLI::App& app);
+    /// Whether anything beyond the terminal wants the record.
+    bool wants_record() const { return !json.empty() || !report.empty(); }
+    /// Whether words may go to standard output (the record may own it).
+    bool may_print() const { return !quiet && json != "-"; }
+};
+
+/// One subcommand: declares its options, then runs. run() returns the exit code.
+class Command {
+  public:
+    virtual ~Command() = default;
+    virtual int run() = 0;
+};
+
+std::unique_ptr<Command> make_info(CLI::App& parent);
+std::unique_ptr<Command> make_measure(CLI::App& parent);
+std::unique_ptr<Command> make_map(CLI::App& parent);
+std::unique_ptr<Command> make_flatten(CLI::App& parent);
+
+/// Exit codes by cause; --help lists them.
+int exit_code(Cause cause);
+extern const char* const kExitCodes;
+
+/// Reads a mesh; the reader's warnings are added to @p warnings.
+Mesh load(const std::string& path, std::vector<std::string>& warnings);
+
+/// Adds the diagnosis' warnings.
+void add_findings(const std::vector<Finding>& findings, std::vector<std::string>& warnings);
+
+/// Writes the record where the options want it; prints the table, the warnings and the names of the files otherwise.
+void finish(const Record& record, const CommonOptions& common, const std::string& method, const std::vector<std::string>& files);
+
+/// Seconds since some fixed moment.
+double seconds();
+
+/// Writes "k 0.1234" of an iteration over the line before, if standard error is a terminal.
+class Progress {
+  public:
+    explicit Progress(bool wanted);
+    ~Progress();
+    void show(int iteration, double k);
+
+  private:
+    bool terminal_, used_ = false;
+};
+
+}  // namespace beltrami::cli

@@ -1,0 +1,59 @@
+#include <fmt/format.h>
+
+#include <beltrami/generate/quality.h>
+#include <beltrami/mesh/error.h>
+
+#include "command.h"
+
+namespace beltrami::cli {
+
+namespace {
+
+class Info final : public Command {
+  public:
+    explicit Info(CLI::App& parent) {
+        CLI::App* app = parent.add_subcommand("info", "what a mesh is: size, topology, quality, defects");
+        app->add_option("MESH", mesh_, "OBJ, PLY, OFF or STL")->required();
+        common_.add_to(*app);
+        app->footer(kExitCodes);
+    }
+
+    int run() override {
+        if (!common_.report.empty()) throw Error(Cause::bad_option, "info has no map to report on", "use map or measure with --report");
+        Record record;
+        record.command = "info";
+        const Mesh mesh = load(mesh_, record.warnings);
+        const std::vector<Finding> findings = diagnose(mesh);
+        add_findings(findings, record.warnings);
+        bool fatal = false;
+        for (const Finding& finding : findings) fatal = fatal || finding.fatal;
+        record.source = fatal ? source_record(mesh) : source_record(Surface(mesh));
+        if (common_.may_print()) print(mesh, record.source);
+        finish(record, common_, {}, {});
+        return fatal ? exit_code(Cause::bad_mesh) : 0;
+    }
+
+  private:
+    void print(const Mesh& mesh, const SourceRecord& source) const {
+        int quads = 0;
+        for (int f = 0; f < mesh.face_count(); ++f) quads += mesh.faces.degree(f) == 4;
+        fmt::print("{}\n  {} vertices, {} faces ({} triangles, {} quads){}{}\n", mesh_, source.vertices, source.faces,
+                   source.faces - quads, quads, is_planar(mesh) ? ", planar" : "", mesh.texture ? ", with texture coordinates" : "");
+        if (!source.shape) return;
+        fmt::print("  {} component(s), genus {}, {} boundary loop(s)\n", source.shape->components, source.shape->genus,
+                   source.shape->boundary_loops.size());
+        for (std::size_t l = 0; l < source.shape->boundary_loops.size(); ++l)
+            fmt::print("  loop {}: length {:.6g}\n", l, source.shape->boundary_loops[l]);
+        const MeshQuality q = quality(mesh);
+        fmt::print("  smallest angle {:.2f} degrees, edges from {:.4g} to {:.4g}\n", q.min_angle * 180 / 3.14159265358979324, q.min_edge, q.max_edge);
+    }
+
+    std::string mesh_;
+    CommonOptions common_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_info(CLI::App& parent) { return std::make_unique<Info>(parent); }
+
+}  // namespace beltrami::cli

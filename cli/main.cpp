@@ -1,0 +1,116 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <numeric>
+#include <set>
+
+#include <beltrami/io/atomic_file.h>
+#include <beltrami/linear/symmetric_solver.h>
+#include <beltrami/mesh/error.h>
+
+#include "command.h"
+
+namespace {
+
+extern "C" void interrupted(int) {
+    beltrami::remove_temporaries_from_signal_handler();
+    _exit(130);
+}
+
+int edit_distance(const std::string& a, const std::string& b) {
+    std::vector<int> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), 0);
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        int diagonal = row[0]++;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const int change = diagonal + (a[i - 1] != b[j - 1]);
+            diagonal = row[j];
+            row[j] = std::min({change, row[j] + 1, row[j - 1] + 1});
+        }
+    }
+    return row[b.size()];
+}
+
+/// The word of @p known nearest to @p word, or nothing if none is near.
+std::string nearest(const std::string& word, const std::set<std::string>& known) {
+    std::string best;
+    int least = std::max(2, static_cast<int>(word.size()) / 3) + 1;
+    for (const std::string& candidate : known)
+        if (const int distance = edit_distance(word, candidate); distance < least) {
+            least = distance;
+            best = candidate;
+        }
+    return best;
+}
+
+/// Says what an unknown argument may have meant.
+std::string suggestion(const CLI::App& app) {
+    const CLI::App* chosen = &app;
+    for (const CLI::App* sub : app.get_subcommands()) chosen = sub;
+    std::set<std::string> known;
+    for (const CLI::Option* option : chosen->get_options())
+        for (const std::string& name : option->get_lnames()) known.insert("--" + name);
+    if (chosen == &app)
+        for (const CLI::App* sub : app.get_subcommands({})) known.insert(sub->get_name());
+    for (std::string word : app.remaining(true)) {
+        word = word.substr(0, word.find('='));
+        if (const std::string best = nearest(word, known); !best.empty()) return fmt::format("; did you mean {}?", best);
+    }
+    return {};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    using namespace beltrami;
+    std::signal(SIGINT, interrupted);
+    std::signal(SIGTERM, interrupted);
+
+    CLI::App app{"Extremal quasiconformal (Teichmüller) maps of meshes: maps that stretch least, with a certificate.", "beltrami"};
+    app.set_version_flag("--version", fmt::format("beltrami {} ({})", BELTRAMI_VERSION, linear_backend()));
+    app.require_subcommand(1);
+    app.footer(std::string("Examples:\n"
+                           "  beltrami info face.obj\n"
+                           "  beltrami map face.obj -o out.obj --boundary disk:0.5 --json out.json --report out.html\n"
+                           "  beltrami map face.obj -o out.obj --boundary rectangle:1,1 --corners 610,106,2303,14923\n"
+                           "  beltrami map face.obj -o arap.obj --method arap --boundary disk\n"
+                           "  beltrami measure out.obj                 # distortion of its texture coordinates\n"
+                           "  beltrami measure rest.obj deformed.obj   # distortion of a deformation\n"
+                           "  beltrami flatten face.obj -o flat.obj\n\n") +
+               cli::kExitCodes);
+    std::vector<std::pair<CLI::App*, std::unique_ptr<cli::Command>>> commands;
+    const auto add = [&](std::unique_ptr<cli::Command> (*make)(CLI::App&)) {
+        auto command = make(app);
+        commands.emplace_back(app.get_subcommands({}).back(), std::move(command));
+    };
+    add(cli::make_info);
+    add(cli::make_measure);
+    add(cli::make_map);
+    add(cli::make_flatten);
+
+    try {
+        app.parse(argc, argv);
+        for (auto& [sub, command] : commands)
+            if (sub->parsed()) return command->run();
+        return 1;
+    } catch (const CLI::CallForHelp& help) {
+        app.exit(help);
+        return 0;
+    } catch (const CLI::Success& success) {  // --version and its like
+        return app.exit(success);
+    } catch (const CLI::ParseError& error) {
+        fmt::print(stderr, "beltrami: {}{}\nTry 'beltrami --help'.\n", error.what(), suggestion(app));
+        return cli::exit_code(Cause::bad_option);
+    } catch (const Error& error) {
+        fmt::print(stderr, "beltrami: {}\n", error.what());
+        return cli::exit_code(error.cause());
+    } catch (const std::bad_alloc&) {
+        fmt::print(stderr, "beltrami: out of memory\n");
+        return 1;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "beltrami: internal error: {}\n", error.what());
+        return 1;
+    }
+}

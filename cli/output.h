@@ -1,0 +1,22 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <beltrami/operators/distortion.h>
+
+namespace beltrami::cli {
+
+/// -o OUT and --as-positions: where and how a planar map of a mesh is written.
+class OutputOptions {
+  public:
+    void add_to(CLI::App& app);
+    const std::string& path() const { return path_; }
+    /// Vertices and faces of the source in their order, with the map as vt (or as positions) and, in PLY, μ per face.
+    void write(const Mesh& source, const Eigen::VectorXcd& map, const Distortion& distortion) const;
+
+  private:
+    std::string path_;
+    bool as_positions_ = false;
+};
+
+}  // namespace beltrami::cli

@@ -1,0 +1,25 @@
+#include "page.h"
+
+#include <beltrami/io/atomic_file.h>
+
+namespace beltrami::cli {
+
+Positions positions_of(const Eigen::VectorXcd& map) {
+    Positions positions(map.size(), 2);
+    positions.col(0) = map.real();
+    positions.col(1) = map.imag();
+    return positions;
+}
+
+void write_page(const std::string& path, const Mesh& source, std::vector<PageMap> maps, const std::vector<Iteration>& history,
+                const Record& record, const std::string& title) {
+    if (path.empty()) return;
+    PageContent content{source, std::move(maps), {}, {}, to_json(record), title};
+    for (const Iteration& iteration : history) {
+        content.history_k.push_back(iteration.k);
+        content.history_change.push_back(iteration.change);
+    }
+    write_atomically(path, render_page(content));
+}
+
+}  // namespace beltrami::cli

@@ -1,0 +1,29 @@
+# One folder of src/beltrami is one layer. Each layer is an object library whose include path holds its own headers and
+# those of the layers it may use, nothing else: an #include of a layer further down does not compile.
+#
+#   beltrami_layer(<name> [USES <layer>...] [LIBRARIES <target>...])
+#
+# USES names the layers directly above; theirs come along. LIBRARIES are private third-party targets.
+set(BELTRAMI_LAYERS "" CACHE INTERNAL "")
+
+function(beltrami_layer name)
+    cmake_parse_arguments(ARG "" "" "USES;LIBRARIES" ${ARGN})
+    set(folder ${CMAKE_CURRENT_SOURCE_DIR}/src/beltrami/${name})
+    file(GLOB sources CONFIGURE_DEPENDS ${folder}/*.cpp ${folder}/*.h)
+    set(stage ${CMAKE_CURRENT_BINARY_DIR}/layers/${name})
+    file(MAKE_DIRECTORY ${stage}/beltrami)
+    file(CREATE_LINK ${folder} ${stage}/beltrami/${name} SYMBOLIC)
+
+    add_library(beltrami_${name} OBJECT ${sources})
+    target_compile_features(beltrami_${name} PUBLIC cxx_std_20)
+    target_include_directories(beltrami_${name} PUBLIC $<BUILD_INTERFACE:${stage}>)
+    target_link_libraries(beltrami_${name} PUBLIC $<BUILD_INTERFACE:Eigen3::Eigen> Threads::Threads)
+    target_link_libraries(beltrami_${name} PRIVATE $<BUILD_INTERFACE:beltrami_warnings> ${ARG_LIBRARIES})
+    foreach(layer IN LISTS ARG_USES)
+        # Headers only: the objects are collected once, in the library.
+        target_include_directories(beltrami_${name} PUBLIC
+            $<BUILD_INTERFACE:$<TARGET_PROPERTY:beltrami_${layer},INTERFACE_INCLUDE_DIRECTORIES>>)
+    endforeach()
+    set_target_properties(beltrami_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    set(BELTRAMI_LAYERS ${BELTRAMI_LAYERS} ${name} CACHE INTERNAL "")
+endfunction()

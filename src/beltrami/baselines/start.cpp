@@ -1,0 +1,94 @@
+#include <beltrami/baselines/start.h>
+
+#include <cmath>
+
+#include <beltrami/maps/beltrami_solver.h>
+#include <beltrami/mesh/error.h>
+#include <beltrami/operators/distortion.h>
+
+namespace beltrami {
+
+void BaselineOptions::validate() const {
+    if (max_iterations < 1) throw Error(Cause::bad_option, "max_iterations must be at least 1");
+    if (!(tolerance > 0 && tolerance < 1)) throw Error(Cause::bad_option, "tolerance must lie between 0 and 1");
+}
+
+namespace detail {
+
+void check_baseline(const Surface& source, const BoundaryCondition& boundary, const BaselineOptions& options) {
+    options.validate();
+    validate(boundary, source);
+    if (source.topology.boundary_loops.empty())
+        throw Error(Cause::bad_boundary, "a closed surface has no map to the plane without folds", "cut it open first");
+}
+
+double enclosed_area(const Surface& source, const BoundaryCondition& boundary) {
+    const Eigen::VectorXcd images = prescribed_values(boundary, source);
+    double area = 0;
+    for (const auto& loop : source.topology.boundary_loops) {
+        const Complex origin = images[loop[0]];
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const Complex p = images[loop[i]] - origin, q = images[loop[(i + 1) % loop.size()]] - origin;
+            area += 0.5 * std::imag(std::conj(p) * q);
+        }
+    }
+    return area;
+}
+
+bool must_fold(const Surface& source, const BoundaryCondition& boundary, BaselineMap& result) {
+    if (!unprescribed_boundary(boundary, source).empty() || enclosed_area(source, boundary) > 0) return false;
+    result.converged = false;
+    result.warnings.push_back(
+        "the prescribed boundary encloses no positive area, so every map with it folds; a boundary listed clockwise "
+        "must be reversed");
+    return true;
+}
+
+Eigen::VectorXcd linear_map(const Surface& source, const BoundaryCondition& boundary, int& factorizations) {
+    ++factorizations;
+    if (unprescribed_boundary(boundary, source).empty()) return harmonic_map(source, boundary);
+    if (boundary.vertices.size() != 1) return least_squares_conformal_map(source, boundary);
+    const Eigen::VectorXcd map = least_squares_conformal_map(source, {});
+    const Complex shift = boundary.images[0] - map[boundary.vertices[0]];
+    return map.array() + shift;
+}
+
+bool has_no_folds(const Surface& source, const Eigen::VectorXcd& map) {
+    for (int s = 0; s < source.operators.sample_count(); ++s) {
+        const auto [d_z, d_zbar] = source.operators.derivatives(s, map);
+        if (!(std::norm(d_z) > std::norm(d_zbar))) return false;
+    }
+    return true;
+}
+
+void warn_of_flips(const Surface& source, BaselineMap& result) {
+    const std::size_t flipped = distortion(source.operators, result.map).flipped.size();
+    if (flipped) result.warnings.push_back(std::to_string(flipped) + " faces are flipped");
+}
+
+}  // namespace detail
+
+BaselineMap harmonic_baseline(const Surface& source, const BoundaryCondition& boundary,
+                              const BaselineOptions& options) {
+    detail::check_baseline(source, boundary, options);
+    BaselineMap result;
+    result.map = harmonic_map(source, boundary);
+    result.factorizations = 1;
+    result.converged = true;
+    detail::must_fold(source, boundary, result);
+    detail::warn_of_flips(source, result);
+    return result;
+}
+
+BaselineMap lscm_baseline(const Surface& source, const BoundaryCondition& boundary, const BaselineOptions& options) {
+    detail::check_baseline(source, boundary, options);
+    BaselineMap result;
+    result.map = least_squares_conformal_map(source, boundary);
+    result.factorizations = 1;
+    result.converged = true;
+    detail::must_fold(source, boundary, result);
+    detail::warn_of_flips(source, result);
+    return result;
+}
+
+}  // namespace beltrami

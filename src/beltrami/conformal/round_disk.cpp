@@ -1,0 +1,210 @@
+#include <beltrami/conformal/round_disk.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include <beltrami/conformal/flatten.h>
+#include <beltrami/maps/beltrami_solver.h>
+#include <beltrami/mesh/error.h>
+
+namespace beltrami {
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// If all boundary points lie on one circle: its centre and radius, else radius 0.
+std::pair<Complex, double> boundary_circle(const Surface& source, const Eigen::VectorXcd& z) {
+    const auto& loop = source.topology.boundary_loops[0];
+    // Algebraic fit |z|² = 2 Re(conj(c) z) + d, about the mean for conditioning.
+    Complex mean = 0;
+    for (const int v : loop) mean += z[v];
+    mean /= static_cast<double>(loop.size());
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d rhs = Eigen::Vector3d::Zero();
+    double scale = 0;
+    for (const int v : loop) scale = std::max(scale, std::abs(z[v] - mean));
+    for (const int v : loop) {
+        const Complex p = (z[v] - mean) / scale;
+        const Eigen::Vector3d row(2 * p.real(), 2 * p.imag(), 1);
+        normal += row * row.transpose();
+        rhs += row * std::norm(p);
+    }
+    const Eigen::Vector3d fit = normal.ldlt().solve(rhs);
+    const Complex centre = mean + scale * Complex(fit[0], fit[1]);
+    const double radius = scale * std::sqrt(std::max(0.0, fit[2] + fit[0] * fit[0] + fit[1] * fit[1]));
+    for (const int v : loop)
+        if (std::abs(std::abs(z[v] - centre) - radius) > 1e-7 * radius) return {0.0, 0.0};
+    return {centre, radius};
+}
+
+/// Harmonic extensions into a surface with fixed boundary values, and conjugates.
+class HarmonicExtension {
+  public:
+    explicit HarmonicExtension(const Surface& source)
+        : source_(source), freedom_(source.mesh.vertex_count(), Freedom::fixed) {
+        for (const int v : source.mesh.faces.vertices())
+            if (!source.topology.on_boundary[v]) freedom_[v] = Freedom::free;
+        solver_ = std::make_unique<BeltramiSolver>(source, freedom_, 1);
+        solver_->factorize(zero());
+    }
+
+    /// The real harmonic function with the values of @p boundary on the boundary.
+    Eigen::VectorXd extend(const Eigen::VectorXd& boundary) const {
+        return solver_->solve(boundary.cast<Complex>()).real();
+    }
+
+    /// h + i h* with ∂̄(h + i h*) least and h* = 0 at the first boundary vertex.
+    Eigen::VectorXcd with_conjugate(const Eigen::VectorXd& h) const {
+        std::vector<Freedom> freedom(freedom_.size(), Freedom::fixed);
+        for (const int v : source_.mesh.faces.vertices()) freedom[v] = Freedom::sliding;
+        freedom[source_.topology.boundary_loops[0][0]] = Freedom::fixed;
+        BeltramiSolver conjugate(source_, freedom, 1);
+        conjugate.factorize(zero(), Eigen::VectorXcd::Constant(source_.mesh.vertex_count(), Complex(0, 1)));
+        return conjugate.solve(h.cast<Complex>());
+    }
+
+  private:
+    Eigen::VectorXcd zero() const { return Eigen::VectorXcd::Zero(source_.operators.sample_count()); }
+
+    const Surface& source_;
+    std::vector<Freedom> freedom_;
+    std::unique_ptr<BeltramiSolver> solver_;
+};
+
+/// An inner vertex deep inside: where the solution of −Δψ = 1, ψ = 0 on the boundary of the flattened surface is
+/// largest.
+int deepest_vertex(const Surface& source, const HarmonicExtension& harmonic, const Eigen::VectorXcd& w) {
+    const Eigen::VectorXd squares = w.cwiseAbs2();
+    const Eigen::VectorXd depth = harmonic.extend(squares) - squares;  // 4ψ, as Δ|w|² = 4
+    int deepest = -1;
+    for (const int v : source.mesh.faces.vertices())
+        if (!source.topology.on_boundary[v] && (deepest < 0 || depth[v] > depth[deepest])) deepest = v;
+    if (deepest < 0)
+        throw Error(Cause::bad_mesh, "the surface has no vertex inside", "refine it, for instance by one subdivision");
+    return deepest;
+}
+
+std::vector<double> vertex_areas(const Operators& operators) {
+    std::vector<double> area(operators.vertex_count, 0.0);
+    for (int s = 0; s < operators.sample_count(); ++s) {
+        const auto stencil = operators.stencil(s);
+        for (const int v : stencil) area[v] += operators.weights[s] / static_cast<double>(stencil.size());
+    }
+    return area;
+}
+
+void slide(const Surface& source, Eigen::VectorXcd& g, const RoundDiskOptions& options, int* factorizations) {
+    const auto& loop = source.topology.boundary_loops[0];
+    const int n = source.mesh.vertex_count();
+    std::vector<Freedom> freedom(n, Freedom::fixed);
+    for (const int v : source.mesh.faces.vertices()) freedom[v] = Freedom::free;
+    for (const int v : loop) freedom[v] = Freedom::sliding;
+    // Three held vertices, a third of the circle apart in the present map.
+    double turned = 0;
+    int held = 0;
+    for (std::size_t i = 0; i < loop.size() && held < 3; ++i) {
+        if (turned >= held * 2 * kPi / 3 - 1e-12) {
+            freedom[loop[i]] = Freedom::fixed;
+            ++held;
+        }
+        turned += std::arg(g[loop[(i + 1) % loop.size()]] / g[loop[i]]);
+    }
+    const Eigen::VectorXcd zero = Eigen::VectorXcd::Zero(source.operators.sample_count());
+    BeltramiSolver solver(source, freedom, options.sliding_steps);
+    for (int step = 0; step < options.sliding_steps; ++step) {
+        Eigen::VectorXcd tangent = Eigen::VectorXcd::Zero(n);
+        Eigen::VectorXd curvature = Eigen::VectorXd::Zero(n);
+        for (const int v : loop) tangent[v] = Complex(0, 1) * g[v];
+        if (step > 0) {
+            const Eigen::VectorXcd force = solver.gradient(g);
+            for (const int v : loop) curvature[v] = -std::real(std::conj(force[v]) * g[v]);
+        }
+        solver.factorize(zero, tangent, curvature);
+        ++*factorizations;
+        const Eigen::VectorXcd moved = solver.solve(g);
+        double largest = 0;
+        std::vector<double> turn(loop.size());
+        double damping = 1;
+        for (std::size_t i = 0; i < loop.size(); ++i)
+            turn[i] = std::real((moved[loop[i]] - g[loop[i]]) / tangent[loop[i]]);
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const std::size_t j = (i + 1) % loop.size();
+            const double gap = std::arg(g[loop[j]] / g[loop[i]]), closing = turn[i] - turn[j];
+            if (gap > 0 && closing > 0.9 * gap) damping = std::min(damping, 0.9 * gap / closing);
+            largest = std::max(largest, std::abs(turn[i]));
+        }
+        for (int v = 0; v < n; ++v)
+            if (freedom[v] == Freedom::free) g[v] = moved[v];
+        for (std::size_t i = 0; i < loop.size(); ++i) g[loop[i]] *= std::polar(1.0, damping * turn[i]);
+        if (damping * largest < options.tolerance) break;
+    }
+    // Interior for the final boundary.
+    for (const int v : loop) freedom[v] = Freedom::fixed;
+    BeltramiSolver inside(source, freedom, 1);
+    inside.factorize(zero);
+    ++*factorizations;
+    g = inside.solve(g);
+}
+
+}  // namespace
+
+void centre_in_disk(Eigen::VectorXcd& points, const std::vector<double>& weights) {
+    double total = 0;
+    for (const double w : weights) total += w;
+    for (int step = 0; step < 200; ++step) {
+        Complex mean = 0;
+        for (Eigen::Index v = 0; v < points.size(); ++v) mean += weights[v] * points[v];
+        mean /= total;
+        if (std::abs(mean) < 1e-14) break;
+        for (Eigen::Index v = 0; v < points.size(); ++v)
+            points[v] = (points[v] - mean) / (1.0 - std::conj(mean) * points[v]);
+    }
+}
+
+Chart round_disk_chart(const Surface& source, const RoundDiskOptions& options) {
+    const Topology& topology = source.topology;
+    if (topology.components != 1 || topology.boundary_loops.size() != 1 || topology.genus != 0)
+        throw Error(Cause::bad_mesh,
+                    "the surface is not a disk: it has " + std::to_string(topology.components) + " component(s), " +
+                        std::to_string(topology.boundary_loops.size()) + " boundary loop(s) and genus " +
+                        std::to_string(topology.genus),
+                    "cut or fill it until one component with one boundary loop is left");
+    const int n = source.mesh.vertex_count();
+    Eigen::VectorXcd w(n);
+    int factorizations = 0;
+    if (source.planar_metric) {
+        // Positions in the frame of the operators: a mesh seen from below is mirrored.
+        double area = 0;
+        for (int f = 0; f < source.mesh.face_count(); ++f) area += face_vector_area(source.mesh, f).z();
+        for (int v = 0; v < n; ++v)
+            w[v] = Complex(source.mesh.positions(v, 0), (area < 0 ? -1 : 1) * source.mesh.positions(v, 1));
+        const auto [centre, radius] = boundary_circle(source, w);
+        if (radius > 0) return make_chart(source, (w.array() - centre) / radius, true);
+    } else {
+        const Flattening flat = flatten(source.mesh);
+        w = flat.positions;
+        factorizations += flat.iterations;
+    }
+
+    const auto& loop = topology.boundary_loops[0];
+    const HarmonicExtension harmonic(source);
+    const Complex pole = w[deepest_vertex(source, harmonic, w)];
+    Eigen::VectorXd real = Eigen::VectorXd::Zero(n);
+    for (const int v : loop) real[v] = -std::log(std::abs(w[v] - pole));
+    const Eigen::VectorXcd h = harmonic.with_conjugate(harmonic.extend(real));
+    factorizations += 2;
+    Eigen::VectorXcd g(n);
+    for (int v = 0; v < n; ++v) g[v] = (w[v] - pole) * std::exp(h[v]);
+    for (const int v : loop) g[v] /= std::abs(g[v]);
+    centre_in_disk(g, vertex_areas(source.operators));
+    if (options.sliding_steps > 0) slide(source, g, options, &factorizations);
+    Chart chart = make_chart(source, std::move(g), false);
+    chart.factorizations = factorizations;
+    return chart;
+}
+
+}  // namespace beltrami

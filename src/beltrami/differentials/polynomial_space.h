@@ -1,0 +1,28 @@
+#pragma once
+
+#include <beltrami/differentials/differential_space.h>
+
+namespace beltrami {
+
+/// Polynomials up to a degree on the round unit disk: √((j+1)/π) ζ^j, orthonormal in L² of the disk. On the disk itself
+/// powers are orthogonal, so that no orthogonalisation on samples is needed and combinations cost one Horner scheme.
+class PolynomialSpace final : public DifferentialSpace {
+  public:
+    /// @param degree         at least 0
+    /// @param largest_degree refined() stops there
+    PolynomialSpace(int degree, int largest_degree);
+
+    /// A space to start from and a largest degree for a mesh of so many samples.
+    static std::unique_ptr<DifferentialSpace> for_samples(int sample_count);
+
+    int size() const override { return degree_ + 1; }
+    bool complex_coefficients() const override { return true; }
+    Eigen::MatrixXcd evaluate(const ChartPoints& points) const override;
+    Eigen::VectorXcd combination(const ChartPoints& points, const Eigen::VectorXcd& coefficients) const override;
+    std::unique_ptr<DifferentialSpace> refined() const override;
+
+  private:
+    int degree_, largest_degree_;
+};
+
+}  // namespace beltrami

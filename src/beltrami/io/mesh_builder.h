@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <beltrami/io/read_mesh.h>
+
+namespace beltrami {
+
+/// Gathers vertices, faces and texture coordinates one by one, as every reader meets them, and keeps their order.
+class MeshBuilder {
+  public:
+    /// @param name      what errors and warnings call the file
+    /// @param dimension coordinates a vertex: 3 or 2
+    explicit MeshBuilder(std::string name, int dimension = 3) : name_(std::move(name)), dimension_(dimension) {}
+
+    std::size_t vertex_count() const { return coordinates_.size() / static_cast<std::size_t>(dimension_); }
+    std::size_t texture_point_count() const { return texture_points_.size() / 2; }
+
+    void reserve_vertices(std::size_t vertices) {
+        coordinates_.reserve(vertices * static_cast<std::size_t>(dimension_));
+    }
+    /// @param coordinates as many as the dimension
+    void add_vertex(std::span<const double> coordinates);
+    void add_texture_point(double u, double v);
+    /// Adds a triangle or a quad.
+    /// @param vertices indices of its corners, 3 or 4
+    /// @param texture  as many indices of texture points, -1 for none; or nothing at all
+    void add_face(std::span<const int> vertices, std::span<const int> texture = {});
+    /// As add_face(), but a larger face is kept out and remembered for a warning.
+    /// @param source the text or binary source, asked with here() for the face's place in the file
+    template <class Source>
+    void add_or_keep_out(std::span<const int> vertices, std::span<const int> texture, const Source& source) {
+        if (vertices.size() > 4) {
+            keep_out(vertices.size(), kept_out_ < most_named ? source.here() : std::string());
+        } else {
+            add_face(vertices, texture);
+        }
+    }
+    /// Gives each vertex its texture point of the same index.
+    void use_texture_per_vertex() { texture_per_vertex_ = true; }
+
+    /// The mesh; the builder is empty afterwards. @throw Error unreadable if there is no vertex
+    LoadedMesh finish();
+
+  private:
+    static constexpr std::int64_t most_named = 10;  ///< large faces named one by one before they are only counted
+
+    void keep_out(std::size_t corners, const std::string& place);
+    void check_room(std::size_t count, const char* things) const;
+
+    std::string name_;
+    int dimension_;
+    std::vector<double> coordinates_;
+    FaceList faces_;
+    std::vector<double> texture_points_;
+    std::vector<int> texture_corners_;
+    bool texture_used_ = false;
+    bool texture_per_vertex_ = false;
+    std::int64_t kept_out_ = 0;
+    std::vector<std::string> warnings_;
+};
+
+}  // namespace beltrami

@@ -1,0 +1,55 @@
+#include <beltrami/io/number_lists.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <beltrami/io/read_file.h>
+#include <beltrami/io/text_scanner.h>
+
+namespace beltrami {
+
+namespace {
+
+/// Reads the next row; the rows' first index_columns numbers must be indices below the limit.
+std::vector<double> read_row(TextScanner& scanner, int columns, int index_columns, int limit, const std::string& what) {
+    const std::string expected = fmt::format("one of the {} numbers of {}", columns, what);
+    std::vector<double> row;
+    for (int column = 0; column < columns; ++column) {
+        const double value = scanner.number(expected);
+        if (column < index_columns && !(value >= 0 && value < limit && value == std::floor(value))) {
+            scanner.fail(fmt::format("{} of {} is not an index from 0 to {}", value, what, limit - 1));
+        }
+        row.push_back(value);
+    }
+    if (!scanner.at_line_end()) scanner.fail(fmt::format("{} has {} numbers, the line holds more", what, columns));
+    return row;
+}
+
+}  // namespace
+
+std::vector<std::vector<double>> read_rows(const std::filesystem::path& path, int columns, const std::string& what) {
+    const std::string bytes = read_file(path);
+    TextScanner scanner(bytes, path.string());
+    std::vector<std::vector<double>> rows;
+    while (scanner.next_line()) rows.push_back(read_row(scanner, columns, 0, 0, what));
+    return rows;
+}
+
+IndexedRows read_indexed_rows(const std::filesystem::path& path, int index_columns, int limit, int value_columns,
+                              const std::string& what) {
+    const std::string bytes = read_file(path);
+    TextScanner scanner(bytes, path.string());
+    std::vector<double> numbers;
+    const int columns = index_columns + value_columns;
+    while (scanner.next_line()) {
+        const std::vector<double> row = read_row(scanner, columns, index_columns, limit, what);
+        numbers.insert(numbers.end(), row.begin(), row.end());
+    }
+    const Eigen::Index row_count = static_cast<Eigen::Index>(numbers.size()) / std::max(columns, 1);
+    const Eigen::Map<const Positions> table(numbers.data(), row_count, columns);
+    return {table.leftCols(index_columns).cast<int>(), table.rightCols(value_columns)};
+}
+
+}  // namespace beltrami

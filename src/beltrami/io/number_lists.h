@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <beltrami/mesh/mesh.h>
+
+namespace beltrami {
+
+/// Reads a text file of numbers: one row a line, separated by blanks; # begins a comment; blank lines are passed over.
+/// @param columns how many numbers each row must have
+/// @param what    what a row is, for the error: "a landmark", "a pinned vertex"
+/// @throw Error unreadable with file and line
+std::vector<std::vector<double>> read_rows(const std::filesystem::path& path, int columns, const std::string& what);
+
+/// Rows that begin with indices, as lists of pins, landmarks and corners do.
+struct IndexedRows {
+    Eigen::Matrix<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> indices;  ///< #rows × index_columns
+    Positions values;                                                             ///< #rows × value_columns
+};
+
+/// As read_rows(), where the first columns are indices.
+/// @param index_columns how many: whole numbers in [0, limit)
+/// @param value_columns how many other numbers follow them
+/// @throw Error unreadable with file and line
+IndexedRows read_indexed_rows(const std::filesystem::path& path, int index_columns, int limit, int value_columns,
+                              const std::string& what);
+
+}  // namespace beltrami

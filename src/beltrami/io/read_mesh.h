@@ -1,0 +1,54 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <beltrami/mesh/mesh.h>
+
+namespace beltrami {
+
+/// A mesh as its file has it, and what the file held that the mesh does not.
+struct LoadedMesh {
+    Mesh mesh;
+    std::vector<std::string> warnings;  ///< sentences without a final full stop; empty if all was taken
+};
+
+/// Reads a mesh in the format its extension names: .obj, .ply, .off or .stl, in either case.
+///
+/// Vertices, faces (triangles and quads) and texture coordinates come in the order of the file. A face with more than
+/// four corners is kept out, with a warning that names its line (or byte). Normals, colours, groups, materials and
+/// unknown properties are ignored. Numbers are read the same way in every locale; "nan" and "inf" are taken as they
+/// stand, for diagnose() to report. A false count never makes a reader take more memory than a small multiple of the
+/// file's size.
+///
+/// @throw Error unreadable if the extension is unknown, the file cannot be read, is malformed or truncated, holds no
+///        vertex, or a face has fewer than three corners or names a vertex that is not there.
+LoadedMesh read_mesh(const std::filesystem::path& path);
+
+/// Reads a Wavefront OBJ held in memory. Texture points keep their first two numbers.
+/// @param name what errors and warnings call the file
+/// @throw Error unreadable
+LoadedMesh read_obj(std::string_view bytes, const std::string& name);
+
+/// Reads a PLY held in memory: ascii or binary of either byte order. Without a property z the positions are #V×2.
+/// The vertex properties (s, t), (u, v) or (texture_u, texture_v) become texture coordinates, one point a vertex.
+/// @param name what errors and warnings call the file
+/// @throw Error unreadable
+LoadedMesh read_ply(std::string_view bytes, const std::string& name);
+
+/// Reads a text OFF held in memory, also with colours, normals and texture coordinates (COFF, NOFF, STOFF …); of these
+/// only texture coordinates, the last two numbers of a vertex line, are kept.
+/// @param name what errors and warnings call the file
+/// @throw Error unreadable
+LoadedMesh read_off(std::string_view bytes, const std::string& name);
+
+/// Reads an STL held in memory, text or binary. The format lists each triangle's corners anew and has no notion of
+/// a shared vertex, so corners with identical coordinates (bit for bit; −0 counts as 0) become one vertex. Vertices are
+/// in the order of their first appearance.
+/// @param name what errors and warnings call the file
+/// @throw Error unreadable
+LoadedMesh read_stl(std::string_view bytes, const std::string& name);
+
+}  // namespace beltrami

@@ -1,0 +1,126 @@
+#include <array>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include <beltrami/io/mesh_builder.h>
+#include <beltrami/io/read_mesh.h>
+#include <beltrami/io/text_scanner.h>
+
+namespace beltrami {
+
+namespace {
+
+class ObjParser {
+  public:
+    ObjParser(std::string_view bytes, const std::string& name)
+        : scanner_(bytes, name, TextScanner::Continuation::backslash), name_(name), builder_(name) {}
+
+    LoadedMesh parse() {
+        while (scanner_.next_line()) {
+            const std::string_view keyword = scanner_.word();
+            if (keyword == "v") {
+                read_vertex();
+            } else if (keyword == "vt") {
+                read_texture_point();
+            } else if (keyword == "f") {
+                read_face();
+            } else if (!is_letter(keyword.front())) {
+                // Statements without use here (vn, g, usemtl, curv …) all are words; anything else is no OBJ.
+                scanner_.fail(fmt::format("{} is not a statement of an OBJ file", in_quotes(keyword)));
+            }
+        }
+        check_forward(forward_vertices_, builder_.vertex_count(), "vertex");
+        check_forward(forward_points_, builder_.texture_point_count(), "texture point");
+        return builder_.finish();
+    }
+
+  private:
+    /// An index that was larger than its list when it was read. Some files put faces before vertices.
+    struct ForwardReference {
+        std::int64_t line;
+        int index;
+    };
+
+    static bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+    void read_vertex() {
+        std::array<double, 3> point;
+        for (double& coordinate : point) coordinate = scanner_.number("a coordinate");
+        builder_.add_vertex(point);
+    }
+
+    void read_texture_point() {
+        const double u = scanner_.number("a texture coordinate");
+        builder_.add_texture_point(u, scanner_.at_line_end() ? 0.0 : scanner_.number("a texture coordinate"));
+    }
+
+    void read_face() {
+        vertices_.clear();
+        points_.clear();
+        while (!scanner_.at_line_end()) read_corner(scanner_.word());
+        if (vertices_.size() < 3) {
+            scanner_.fail(fmt::format("a face names {} corners, it needs at least 3", vertices_.size()));
+        }
+        builder_.add_or_keep_out(vertices_, points_, scanner_);
+    }
+
+    /// v, v/vt, v//vn or v/vt/vn; a slash with nothing after it is let pass.
+    void read_corner(std::string_view corner) {
+        std::array<std::string_view, 3> parts;
+        std::string_view rest = corner;
+        for (std::string_view& part : parts) {
+            const std::size_t slash = rest.find('/');
+            part = rest.substr(0, slash);
+            rest = slash == std::string_view::npos ? std::string_view() : rest.substr(slash + 1);
+        }
+        const auto vertex = spelled_number<std::int64_t>(parts[0]);
+        const auto point = parts[1].empty() ? 0 : spelled_number<std::int64_t>(parts[1]);
+        const auto normal = parts[2].empty() ? 0 : spelled_number<std::int64_t>(parts[2]);
+        if (!vertex || !point || !normal || !rest.empty()) {
+            scanner_.fail(fmt::format("{} is not a corner of a face (v, v/vt, v//vn or v/vt/vn)", in_quotes(corner)));
+        }
+        vertices_.push_back(resolve(*vertex, builder_.vertex_count(), forward_vertices_, "vertex"));
+        points_.push_back(
+            parts[1].empty() ? -1 : resolve(*point, builder_.texture_point_count(), forward_points_, "texture point"));
+    }
+
+    /// From the file's index (from 1, or from -1 backwards from the last one so far) to one from 0.
+    int resolve(std::int64_t index, std::size_t count, std::vector<ForwardReference>& forward, const char* thing) {
+        const auto so_far = static_cast<std::int64_t>(count);
+        if (index < 0 && index >= -so_far) return static_cast<int>(so_far + index);
+        if (index <= 0 || index > std::numeric_limits<int>::max()) {
+            scanner_.fail(fmt::format("a face names {} {}, {}", thing, index,
+                                      index == 0  ? "but indices count from 1"
+                                      : index < 0 ? fmt::format("but only {} came before it", so_far)
+                                                  : "which is too large"));
+        }
+        if (index > so_far) forward.push_back({scanner_.line(), static_cast<int>(index)});
+        return static_cast<int>(index - 1);
+    }
+
+    void check_forward(const std::vector<ForwardReference>& forward, std::size_t count, const char* thing) const {
+        for (const auto& [line, index] : forward) {
+            if (static_cast<std::size_t>(index) > count) {
+                fail_to_read(fmt::format("{}:{}", name_, line),
+                             fmt::format("a face names {} {}, but the file has {}", thing, index, count), line);
+            }
+        }
+    }
+
+    TextScanner scanner_;
+    std::string name_;
+    MeshBuilder builder_;
+    std::vector<int> vertices_;  // of the face being read
+    std::vector<int> points_;
+    std::vector<ForwardReference> forward_vertices_;
+    std::vector<ForwardReference> forward_points_;
+};
+
+}  // namespace
+
+LoadedMesh read_obj(std::string_view bytes, const std::string& name) {
+    return ObjParser(bytes, name).parse();
+}
+
+}  // namespace beltrami

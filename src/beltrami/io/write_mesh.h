@@ -1,0 +1,61 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <beltrami/mesh/mesh.h>
+
+namespace beltrami {
+
+// All writers write completely or not at all (see AtomicFile), with the fewest digits that give the same double back:
+// what is read again is the same mesh, bit for bit. Where a format demands three coordinates, a mesh of the plane gets
+// z = 0.
+
+/// A named number for each face or each vertex.
+struct Column {
+    std::string name;        ///< one word
+    Eigen::VectorXd values;  ///< #F or #V
+};
+
+enum class PlyEncoding { ascii, binary_little_endian };
+
+/// A map of the mesh's vertices to the plane as texture coordinates: one point a vertex, without seams.
+/// @param map #V×2
+/// @throw Error bad_option if it has another shape
+TextureCoordinates texture_of_map(const Mesh& mesh, const Positions& map);
+
+/// Writes a Wavefront OBJ.
+/// @param texture written as vt; pass mesh.texture to keep the mesh's own, or texture_of_map()
+/// @throw Error unwritable; bad_option if the texture does not fit the mesh
+void write_obj(const std::filesystem::path& path, const Mesh& mesh,
+               const std::optional<TextureCoordinates>& texture = std::nullopt);
+
+/// Writes a text OFF, or a STOFF if there is a map. The mesh's own texture is not written.
+/// @param map #V×2, texture coordinates of the vertices
+/// @throw Error unwritable; bad_option if the map does not fit the mesh
+void write_off(const std::filesystem::path& path, const Mesh& mesh, const std::optional<Positions>& map = std::nullopt);
+
+/// Writes a PLY with all numbers as double, without z if the mesh has none. The mesh's own texture is not written.
+/// @param face_columns   further properties of the faces, for instance mu_re, mu_im, abs_mu, K
+/// @param vertex_columns further properties of the vertices; u and v are read back as texture coordinates
+/// @throw Error unwritable; bad_option if a column does not fit the mesh or its name is not a word of its own
+void write_ply(const std::filesystem::path& path, const Mesh& mesh, const std::vector<Column>& face_columns = {},
+               const std::vector<Column>& vertex_columns = {},
+               PlyEncoding encoding = PlyEncoding::binary_little_endian);
+
+/// What write_mesh() writes.
+struct MeshOutput {
+    const Mesh& mesh;
+    std::optional<Positions> map = std::nullopt;  ///< #V×2: where the vertices go
+    std::vector<Column> face_columns = {};
+};
+
+/// Writes in the format the extension names, in either case: .obj (the map as vt, or else the mesh's own texture),
+/// .ply (binary; the map as vertex properties u and v, the face columns) or .off (the map as STOFF). Only .ply can hold
+/// face columns, the other formats go without.
+/// @throw Error unwritable, also if the extension is unknown; bad_option if the map or a column does not fit the mesh
+void write_mesh(const std::filesystem::path& path, const MeshOutput& output);
+
+}  // namespace beltrami

@@ -1,0 +1,156 @@
+#if BELTRAMI_SUITESPARSE
+
+#include <cholmod.h>
+#include <dlfcn.h>
+
+#include <mutex>
+#include <new>
+#include <string>
+
+#include <beltrami/linear/backend.h>
+#include <beltrami/linear/symmetric_solver.h>
+#include <beltrami/mesh/error.h>
+
+namespace beltrami {
+
+const char* linear_backend() {
+    static const std::string name = "CHOLMOD " + std::to_string(CHOLMOD_MAIN_VERSION) + "." +
+                                    std::to_string(CHOLMOD_SUB_VERSION) + "." + std::to_string(CHOLMOD_SUBSUB_VERSION);
+    return name.c_str();
+}
+
+namespace detail {
+namespace {
+
+/// A function of a library that may or may not be loaded.
+template <class Function>
+Function* loaded_function(const char* name) {
+    return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));
+}
+
+/// One BLAS thread keeps results the same on any number of threads.
+void use_one_blas_thread() {
+    static std::once_flag once;
+    std::call_once(once, [] {
+        if (auto* set = loaded_function<void(int)>("openblas_set_num_threads")) set(1);
+    });
+}
+
+/// Keeps CHOLMOD's own OpenMP loops serial while it lives: they open a team of four threads for every supernode, which
+/// costs more than it gives (measured: half the time of a factorisation without them; docs/performance.md).
+class SerialOpenMp {
+  public:
+    SerialOpenMp() {
+        if (get_ && set_) {
+            saved_ = get_();
+            set_(0);
+        }
+    }
+    ~SerialOpenMp() {
+        if (get_ && set_) set_(saved_);
+    }
+    SerialOpenMp(const SerialOpenMp&) = delete;
+    SerialOpenMp& operator=(const SerialOpenMp&) = delete;
+
+  private:
+    inline static const auto get_ = loaded_function<int()>("omp_get_max_active_levels");
+    inline static const auto set_ = loaded_function<void(int)>("omp_set_max_active_levels");
+    int saved_ = 0;
+};
+
+// METIS orders better than AMD but its own time is only repaid over several factorisations (docs/performance.md).
+constexpr int kMetisPaysFrom = 16;
+
+class CholmodBackend final : public CholeskyBackend {
+  public:
+    CholmodBackend(const Matrix& lower, int expected_factorizations) {
+        use_one_blas_thread();
+        cholmod_start(&common_);
+        common_.print = 0;
+        common_.nmethods = 1;
+        common_.method[0].ordering = expected_factorizations >= kMetisPaysFrom ? CHOLMOD_METIS : CHOLMOD_AMD;
+        common_.postorder = 1;
+        common_.final_ll = 1;
+        cholmod_sparse view = view_of(lower);
+        factor_ = cholmod_analyze(&view, &common_);
+        if (!factor_) fail("the symbolic analysis of a sparse system failed");
+    }
+
+    ~CholmodBackend() override {
+        cholmod_free_dense(&solution_, &common_);
+        cholmod_free_dense(&workspace_y_, &common_);
+        cholmod_free_dense(&workspace_e_, &common_);
+        cholmod_free_factor(&factor_, &common_);
+        cholmod_finish(&common_);
+    }
+    CholmodBackend(const CholmodBackend&) = delete;
+    CholmodBackend& operator=(const CholmodBackend&) = delete;
+
+    bool factorize(const Matrix& lower) override {
+        const SerialOpenMp serial;
+        cholmod_sparse view = view_of(lower);
+        const int done = cholmod_factorize(&view, factor_, &common_);
+        if (!done || common_.status < CHOLMOD_OK) fail("the factorisation of a sparse system failed");
+        return common_.status != CHOLMOD_NOT_POSDEF && factor_->minor == factor_->n;
+    }
+
+    double pivot_ratio() const override { return cholmod_rcond(factor_, const_cast<cholmod_common*>(&common_)); }
+
+    void solve(const Eigen::MatrixXd& rhs, Eigen::MatrixXd& solution) override {
+        const SerialOpenMp serial;
+        cholmod_dense b{};
+        b.nrow = b.d = static_cast<std::size_t>(rhs.rows());
+        b.ncol = static_cast<std::size_t>(rhs.cols());
+        b.nzmax = b.nrow * b.ncol;
+        b.x = const_cast<double*>(rhs.data());
+        b.xtype = CHOLMOD_REAL;
+        b.dtype = CHOLMOD_DOUBLE;
+        if (!cholmod_solve2(CHOLMOD_A, factor_, &b, nullptr, &solution_, nullptr, &workspace_y_, &workspace_e_,
+                            &common_))
+            fail("the solution of a factorised sparse system failed");
+        solution = Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(solution_->x), rhs.rows(), rhs.cols());
+    }
+
+  private:
+    static cholmod_sparse view_of(const Matrix& lower) {
+        cholmod_sparse view{};
+        view.nrow = view.ncol = static_cast<std::size_t>(lower.rows());
+        view.nzmax = static_cast<std::size_t>(lower.nonZeros());
+        view.p = const_cast<int*>(lower.outerIndexPtr());
+        view.i = const_cast<int*>(lower.innerIndexPtr());
+        view.x = const_cast<double*>(lower.valuePtr());
+        view.stype = -1;
+        view.itype = CHOLMOD_INT;
+        view.xtype = CHOLMOD_REAL;
+        view.dtype = CHOLMOD_DOUBLE;
+        view.sorted = 1;
+        view.packed = 1;
+        return view;
+    }
+
+    [[noreturn]] void fail(const char* sentence) const {
+        if (common_.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
+        if (common_.status == CHOLMOD_TOO_LARGE)
+            throw Error(Cause::not_solved, std::string(sentence) + ": it is too large for 32-bit indices",
+                        "use a coarser mesh");
+        throw Error(Cause::not_solved,
+                    std::string(sentence) + " (CHOLMOD status " + std::to_string(common_.status) + ")");
+    }
+
+    cholmod_common common_{};
+    cholmod_factor* factor_ = nullptr;
+    cholmod_dense* solution_ = nullptr;
+    cholmod_dense* workspace_y_ = nullptr;
+    cholmod_dense* workspace_e_ = nullptr;
+};
+
+}  // namespace
+
+std::unique_ptr<CholeskyBackend> make_backend(const CholeskyBackend::Matrix& lower, int expected_factorizations) {
+    return std::make_unique<CholmodBackend>(lower, expected_factorizations);
+}
+
+}  // namespace detail
+}  // namespace beltrami
+
+#endif

@@ -1,0 +1,46 @@
+#if !BELTRAMI_SUITESPARSE
+
+#include <Eigen/SparseCholesky>
+
+#include <beltrami/linear/backend.h>
+#include <beltrami/linear/symmetric_solver.h>
+
+namespace beltrami {
+
+const char* linear_backend() {
+    return "Eigen SimplicialLDLT";
+}
+
+namespace detail {
+namespace {
+
+class EigenBackend final : public CholeskyBackend {
+  public:
+    explicit EigenBackend(const Matrix& lower) { cholesky_.analyzePattern(lower); }
+
+    bool factorize(const Matrix& lower) override {
+        cholesky_.factorize(lower);
+        return cholesky_.info() == Eigen::Success && cholesky_.vectorD().minCoeff() > 0;
+    }
+
+    double pivot_ratio() const override {
+        const auto d = cholesky_.vectorD();
+        return d.size() ? d.minCoeff() / d.maxCoeff() : 1.0;
+    }
+
+    void solve(const Eigen::MatrixXd& rhs, Eigen::MatrixXd& solution) override { solution = cholesky_.solve(rhs); }
+
+  private:
+    Eigen::SimplicialLDLT<Matrix, Eigen::Lower> cholesky_;
+};
+
+}  // namespace
+
+std::unique_ptr<CholeskyBackend> make_backend(const CholeskyBackend::Matrix& lower, int) {
+    return std::make_unique<EigenBackend>(lower);
+}
+
+}  // namespace detail
+}  // namespace beltrami
+
+#endif

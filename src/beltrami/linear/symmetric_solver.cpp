@@ -1,0 +1,206 @@
+#include <beltrami/linear/symmetric_solver.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include <beltrami/linear/backend.h>
+#include <beltrami/mesh/error.h>
+
+namespace beltrami {
+
+namespace {
+
+// Below this ratio of pivots a factor says nothing about its matrix. Cotangent Laplacians of valid meshes, slivers
+// included, stay far above it; a component without any fixed vertex falls to the rounding level.
+constexpr double kSingularPivotRatio = 1e-15;
+constexpr double kRefineAbove = 1e-13;
+constexpr double kAcceptBelow = 1e-6;
+constexpr int kRowsNamed = 10;
+
+double infinity_norm(const SymmetricSolver::Matrix& lower) {
+    Eigen::VectorXd row_sums = Eigen::VectorXd::Zero(lower.rows());
+    for (int column = 0; column < lower.outerSize(); ++column)
+        for (SymmetricSolver::Matrix::InnerIterator it(lower, column); it; ++it) {
+            row_sums[it.row()] += std::abs(it.value());
+            if (it.row() != column) row_sums[column] += std::abs(it.value());
+        }
+    return row_sums.size() ? row_sums.maxCoeff() : 0.0;
+}
+
+}  // namespace
+
+struct SymmetricSolver::Backend {
+    Matrix lower;
+    int expected_factorizations;
+    std::unique_ptr<detail::CholeskyBackend> cholesky;
+    int factorizations = 0;
+    bool factorized = false;  ///< the factor belongs to the present values
+    bool has_factor = false;  ///< … or to earlier ones
+    double norm = 0;
+    mutable double residual = 0;
+
+    /// Rows that carry the null vector: a few steps of inverse iteration on the slightly shifted matrix.
+    std::vector<int> unconstrained_rows() const {
+        Matrix shifted = lower;
+        const double scale = lower.diagonal().cwiseAbs().maxCoeff();
+        for (int column = 0; column < shifted.outerSize(); ++column) shifted.coeffRef(column, column) += 1e-10 * scale;
+        auto inverse = detail::make_backend(shifted, 1);
+        if (!(scale > 0) || !inverse->factorize(shifted)) return {};
+        Eigen::MatrixXd vector(lower.rows(), 1), next;
+        for (Eigen::Index i = 0; i < vector.rows(); ++i)
+            vector(i) = 1.0 + 0.5 * std::sin(static_cast<double>(i + 1));  // any vector that is not special
+        for (int step = 0; step < 3; ++step) {
+            inverse->solve(vector, next);
+            vector = next / next.cwiseAbs().maxCoeff();
+        }
+        std::vector<int> rows(static_cast<std::size_t>(vector.rows()));
+        std::iota(rows.begin(), rows.end(), 0);
+        std::erase_if(rows, [&](int row) { return std::abs(vector(row)) < 0.5; });
+        std::stable_sort(rows.begin(), rows.end(),
+                         [&](int a, int b) { return std::abs(vector(a)) > std::abs(vector(b)); });
+        return rows;
+    }
+
+    [[noreturn]] void report_singular() const {
+        std::vector<int> rows = unconstrained_rows();
+        std::string named;
+        for (std::size_t i = 0; i < std::min<std::size_t>(rows.size(), kRowsNamed); ++i)
+            named += (i ? ", " : "") + std::to_string(rows[i]);
+        if (rows.size() > kRowsNamed) named += " and " + std::to_string(rows.size() - kRowsNamed) + " more";
+        throw Error(Cause::not_solved,
+                    "a linear system is singular or not positive definite" +
+                        (named.empty() ? std::string() : "; unconstrained unknowns: " + named),
+                    "fix at least one vertex of every component and look for degenerate faces", std::move(rows));
+    }
+};
+
+SymmetricSolver::SymmetricSolver(Matrix lower, int expected_factorizations) : backend_(std::make_unique<Backend>()) {
+    lower.makeCompressed();
+    backend_->lower = std::move(lower);
+    backend_->expected_factorizations = expected_factorizations;
+    if (backend_->lower.rows() > 0) backend_->cholesky = detail::make_backend(backend_->lower, expected_factorizations);
+}
+
+SymmetricSolver::~SymmetricSolver() = default;
+SymmetricSolver::SymmetricSolver(SymmetricSolver&&) noexcept = default;
+SymmetricSolver& SymmetricSolver::operator=(SymmetricSolver&&) noexcept = default;
+
+SymmetricSolver::Matrix& SymmetricSolver::matrix() {
+    backend_->factorized = false;
+    return backend_->lower;
+}
+const SymmetricSolver::Matrix& SymmetricSolver::matrix() const {
+    return backend_->lower;
+}
+double SymmetricSolver::last_residual() const {
+    return backend_->residual;
+}
+int SymmetricSolver::factorization_count() const {
+    return backend_->factorizations;
+}
+
+void SymmetricSolver::factorize() {
+    Backend& b = *backend_;
+    if (b.cholesky) {
+        ++b.factorizations;
+        if (!b.lower.coeffs().allFinite())
+            throw Error(Cause::not_solved, "a linear system has entries that are not finite",
+                        "look for degenerate faces and coordinates that are not numbers");
+        b.has_factor = false;
+        b.norm = infinity_norm(b.lower);
+        if (!b.cholesky->factorize(b.lower) || !(b.cholesky->pivot_ratio() > kSingularPivotRatio)) b.report_singular();
+    }
+    b.factorized = b.has_factor = true;
+}
+
+Eigen::MatrixXd SymmetricSolver::solve(const Eigen::MatrixXd& rhs) const {
+    const Backend& b = *backend_;
+    if (!b.factorized) throw std::logic_error("SymmetricSolver::solve before factorize");
+    if (rhs.rows() != b.lower.rows()) throw std::logic_error("SymmetricSolver::solve: wrong number of rows");
+    b.residual = 0;
+    Eigen::MatrixXd solution = Eigen::MatrixXd::Zero(rhs.rows(), rhs.cols());
+    if (!b.cholesky || rhs.cols() == 0) return solution;
+
+    b.cholesky->solve(rhs, solution);
+    const auto residual_of = [&](const Eigen::MatrixXd& x, Eigen::MatrixXd& r) {
+        r = rhs;
+        r.noalias() -= b.lower.selfadjointView<Eigen::Lower>() * x;
+        const double scale = b.norm * x.cwiseAbs().maxCoeff() + rhs.cwiseAbs().maxCoeff();
+        return scale > 0 ? r.cwiseAbs().maxCoeff() / scale : 0.0;
+    };
+    Eigen::MatrixXd remainder;
+    b.residual = residual_of(solution, remainder);
+    if (b.residual > kRefineAbove) {
+        Eigen::MatrixXd correction;
+        b.cholesky->solve(remainder, correction);
+        correction += solution;
+        const double refined = residual_of(correction, remainder);
+        if (refined < b.residual) {
+            solution.swap(correction);
+            b.residual = refined;
+        }
+    }
+    if (!(b.residual <= kAcceptBelow))
+        throw Error(Cause::not_solved,
+                    "a linear system was solved only to a relative residual of " + std::to_string(b.residual),
+                    "look for degenerate faces");
+    return solution;
+}
+
+bool SymmetricSolver::solve_near(const Eigen::MatrixXd& rhs, Eigen::MatrixXd& solution, double tolerance,
+                                 int max_steps) const {
+    const Backend& b = *backend_;
+    if (!b.cholesky) {
+        solution.resize(rhs.rows(), rhs.cols());
+        return true;
+    }
+    if (!b.has_factor) return false;
+    const auto A = b.lower.selfadjointView<Eigen::Lower>();
+    const auto columnwise = [](const Eigen::MatrixXd& x, const Eigen::MatrixXd& y) -> Eigen::RowVectorXd {
+        return x.cwiseProduct(y).colwise().sum();
+    };
+    Eigen::MatrixXd residual = A * solution;
+    // ‖x‖²_A of the guess measures the solution; every column on its own.
+    const Eigen::RowVectorXd reference = columnwise(solution, residual).cwiseMax(0.0);
+    residual = rhs - residual;
+    Eigen::MatrixXd z, direction, image;
+    b.cholesky->solve(residual, z);
+    Eigen::RowVectorXd rz = columnwise(residual, z);
+    const Eigen::RowVectorXd target = tolerance * tolerance * reference;
+    const auto excess = [&] {  // how far the worst column is from its target
+        double worst = 0;
+        for (Eigen::Index j = 0; j < rz.size(); ++j)
+            if (rz[j] > target[j])
+                worst = std::max(worst, target[j] > 0 ? rz[j] / target[j] : std::numeric_limits<double>::infinity());
+        return worst;
+    };
+    const double at_start = excess();
+    direction = z;
+    for (int step = 1; excess() > 1; ++step) {
+        if (step > max_steps || !std::isfinite(excess())) return false;
+        image.noalias() = A * direction;
+        const Eigen::RowVectorXd curvature = columnwise(direction, image);
+        for (Eigen::Index j = 0; j < rz.size(); ++j) {
+            if (!(rz[j] > target[j])) continue;
+            const double length = rz[j] / curvature[j];
+            solution.col(j) += length * direction.col(j);
+            residual.col(j) -= length * image.col(j);
+        }
+        b.cholesky->solve(residual, z);
+        const Eigen::RowVectorXd next = columnwise(residual, z);
+        for (Eigen::Index j = 0; j < rz.size(); ++j) {
+            if (rz[j] > target[j]) direction.col(j) = z.col(j) + (next[j] / rz[j]) * direction.col(j);
+            rz[j] = std::max(0.0, next[j]);
+        }
+        // At the rate so far, would the steps suffice?
+        if (const double left = excess(); left > 1 && step >= 2 && std::isfinite(left)) {
+            const double per_step = std::log(at_start / left) / step;
+            if (!(per_step > 0) || std::log(left) / per_step > max_steps - step + 0.5) return false;
+        }
+    }
+    return solution.allFinite();
+}
+
+}  // namespace beltrami

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <beltrami/operators/operators.h>
+
+namespace beltrami {
+
+/// μ = ∂̄f/∂f at every sample (#S) of a map to the plane. |μ| < 1 exactly where the map keeps orientation, > 1 where it
+/// is turned over; infinite where ∂f = 0 only, NaN where both derivatives vanish.
+Eigen::VectorXcd beltrami_coefficient(const Operators& source, const Eigen::VectorXcd& map);
+
+/// The same of a map into space (#V×3). Orientation is judged against the image's own area-weighted vertex normals:
+/// a face whose image opposes them has |μ| > 1.
+/// @param normals #V×3 vertex normals of the image (vertex_normals of the image mesh)
+Eigen::VectorXcd beltrami_coefficient(const Operators& source, const Positions& image, const Positions& normals);
+
+/// K = (1+|μ|)/|1−|μ||: infinite at |μ| = 1, and of a turned-over face the ratio of its singular values.
+double dilatation(double abs_mu);
+
+/// What a map does to its source, measured by the one routine that solvers, tests and the command share.
+struct Distortion {
+    Eigen::VectorXcd mu;           ///< #S
+    Eigen::VectorXcd face_mu;      ///< #F, the area-weighted mean of a face's samples
+    Eigen::VectorXd face_abs_mu;   ///< #F, the largest |μ| of a face's samples; NaN where undefined
+    double mean = 0;               ///< of |μ|, weighted by source area, over the samples where it is defined and finite
+    double standard_deviation = 0; ///< likewise
+    double p99 = 0;                ///< the value that 99 % of the source area stays below or at
+    double max = 0;                ///< largest |μ|; infinite if ∂f vanishes alone somewhere
+    std::vector<int> flipped;      ///< faces with |μ| > 1 at some sample
+    std::vector<int> degenerate;   ///< faces whose image has an area below 1e-14 of the image's squared diameter
+
+    double max_dilatation() const { return dilatation(max); }
+};
+
+/// Distortion of a map to the plane given at the vertices (#V).
+Distortion distortion(const Operators& source, const Eigen::VectorXcd& map);
+
+/// Distortion of a map given by positions (#V×2 or #V×3) of the same faces.
+/// @param normals as above; ignored for #V×2
+Distortion distortion(const Operators& source, const Positions& image, const Positions& normals = {});
+
+/// Weighted statistics of |μ| at samples, as in Distortion.
+struct MuStatistics {
+    double mean, standard_deviation, p99, max;
+};
+MuStatistics mu_statistics(const Eigen::VectorXcd& mu, const std::vector<double>& weights);
+
+/// μ in a frame whose real axis is turned by @p angle (radians) against the old one: μ e^{−2i·angle}.
+Complex change_frame(Complex mu, double angle);
+
+/// Coefficient of g∘f from μ_f, μ_g (at the image point, in the frame of f's image) and ∂f:
+/// (μ_f + μ_g t)/(1 + conj(μ_f) μ_g t), t = conj(∂f)/∂f. Ahlfors, Lectures on quasiconformal mappings, ch. I.
+Complex compose_coefficients(Complex mu_f, Complex mu_g, Complex d_z_f);
+
+/// Coefficient, at f(z), of g∘f⁻¹ from the coefficients of f and g at z and ∂f.
+Complex decompose_coefficients(Complex mu_f, Complex mu_g, Complex d_z_f);
+
+}  // namespace beltrami

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include <beltrami/mesh/mesh.h>
+
+namespace beltrami {
+
+/// One map of the source mesh, to be shown on the page.
+struct PageMap {
+    std::string name;        ///< "extremal", "harmonic", …
+    Positions map;           ///< #V×2 image of every vertex, or #V×3 for an image in space; NaN where undefined
+    Eigen::VectorXd abs_mu;  ///< #F values of |μ|: above 1 where a face is flipped, NaN where undefined
+};
+
+/// Everything a page shows.
+struct PageContent {
+    const Mesh& source;
+    std::vector<PageMap> maps;           ///< at least one; the first is the main one
+    std::vector<double> history_k;       ///< k after each iteration; may be empty
+    std::vector<double> history_change;  ///< change of each iteration; may be empty
+    std::string record_json;             ///< the command's record, a JSON object ("{}" if there is none)
+    std::string title;
+    int drawn_faces = 400'000;  ///< a mesh of more triangles is coarsened, for drawing only; the page says so
+};
+
+/// One self-contained HTML file (UTF-8, nothing is fetched): the surface and its images coloured by |μ|, the histogram
+/// of |μ|, the convergence, the bounds on K, the comparison and the record. Every text is escaped.
+/// @throw Error bad_option if there is no map, a size disagrees with the mesh, or the record is not a JSON object.
+std::string render_page(const PageContent& content);
+
+}  // namespace beltrami

@@ -1,0 +1,158 @@
+#include <beltrami/report/record.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace beltrami {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// JSON has no NaN and no infinity: both are null.
+Json number(double value) {
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+void put(Json& object, const char* key, const std::optional<double>& value) {
+    if (value) object[key] = number(*value);
+}
+
+Json to_object(const MapRecord& map) {
+    Json object = Json::object();
+    put(object, "k", map.k);
+    put(object, "K", map.K);
+    put(object, "K_lower", map.K_lower);
+    put(object, "K_max", map.K_max);
+    if (!map.bounds.empty()) {
+        Json bounds = Json::array();
+        for (const Bound& bound : map.bounds)
+            bounds.push_back({{"kind", bound.kind},
+                              {"K", number(bound.K)},
+                              {"of", bound.of == Bound::Of::extremal ? "K*" : "mesh"},
+                              {"rigorous", bound.rigorous}});
+        object["bounds"] = std::move(bounds);
+    }
+    object["mu"] = {{"mean", number(map.mean)},
+                    {"std", number(map.standard_deviation)},
+                    {"p99", number(map.p99)},
+                    {"max", number(map.max)}};
+    object["flipped"] = map.flipped;
+    object["degenerate"] = map.degenerate;
+    put(object, "boundary_residual", map.boundary_residual);
+    return object;
+}
+
+Json to_object(const SolveRecord& solve) {
+    Json object = {
+        {"iterations", solve.iterations}, {"termination", solve.termination}, {"factorizations", solve.factorizations}};
+    object["seconds"] = {{"total", number(solve.seconds_total)}};
+    put(object["seconds"], "harmonic", solve.seconds_harmonic);
+    return object;
+}
+
+std::string cell(const std::optional<double>& value, int digits) {
+    if (!value) return "";
+    if (std::isnan(*value)) return "-";
+    return std::isinf(*value) ? "inf" : fmt::format("{:.{}f}", *value, digits);
+}
+
+}  // namespace
+
+SourceRecord source_record(const Mesh& mesh) {
+    return {mesh.vertex_count(), mesh.face_count(), {}};
+}
+
+SourceRecord source_record(const Surface& surface) {
+    SourceRecord record = source_record(surface.mesh);
+    record.shape = {surface.topology.components, surface.topology.genus, surface.topology.loop_lengths};
+    return record;
+}
+
+MapRecord map_record(const Distortion& distortion) {
+    MapRecord record;
+    record.mean = distortion.mean;
+    record.standard_deviation = distortion.standard_deviation;
+    record.p99 = distortion.p99;
+    record.max = distortion.max;
+    record.flipped = static_cast<int>(distortion.flipped.size());
+    record.degenerate = static_cast<int>(distortion.degenerate.size());
+    if (distortion.flipped.empty()) record.K_max = distortion.max_dilatation();
+    return record;
+}
+
+MapRecord map_record(const ExtremalMap& result) {
+    MapRecord record = map_record(result.distortion);
+    record.k = result.k;
+    record.K = result.K;
+    if (result.distortion.flipped.empty()) record.K_lower = result.K_lower;
+    record.bounds = result.bounds;
+    record.boundary_residual = result.boundary_residual;
+    return record;
+}
+
+SolveRecord solve_record(const ExtremalMap& result, double seconds_total) {
+    return {result.iterations, to_string(result.termination), result.factorizations, seconds_total, {}};
+}
+
+std::string to_json(const Record& record) {
+    Json json;
+    json["schema"] = 1;
+    json["command"] = record.command;
+    Json& source = json["source"];
+    source["vertices"] = record.source.vertices;
+    source["faces"] = record.source.faces;
+    if (record.source.shape) {
+        source["components"] = record.source.shape->components;
+        source["boundary_loops"] = record.source.shape->boundary_loops;
+        source["genus"] = record.source.shape->genus;
+    }
+    if (record.map) json["map"] = to_object(*record.map);
+    if (record.solve) json["solve"] = to_object(*record.solve);
+    if (!record.comparison.empty()) {
+        Json methods = Json::array();
+        for (const MethodRecord& other : record.comparison)
+            methods.push_back(
+                {{"method", other.method}, {"map", to_object(other.map)}, {"solve", to_object(other.solve)}});
+        json["comparison"] = std::move(methods);
+    }
+    json["warnings"] = record.warnings;
+    // Names of files may hold any bytes; JSON holds UTF-8 only.
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string to_table(const Record& record, const std::string& method) {
+    if (!record.map) return {};
+    std::vector<std::vector<std::string>> rows{
+        {"method", "k", "K", "K_lower", "K_max", "mean", "std", "p99", "max", "flips", "iterations", "seconds"}};
+    const auto add = [&](const std::string& name, const MapRecord& map, const SolveRecord* solve) {
+        rows.push_back({name, cell(map.k, 4), cell(map.K, 4), cell(map.K_lower, 4), cell(map.K_max, 4),
+                        cell(map.mean, 4), cell(map.standard_deviation, 4), cell(map.p99, 4), cell(map.max, 4),
+                        std::to_string(map.flipped), solve ? std::to_string(solve->iterations) : "",
+                        solve ? fmt::format("{:.3f}", solve->seconds_total) : ""});
+    };
+    add(method, *record.map, record.solve ? &*record.solve : nullptr);
+    for (const MethodRecord& other : record.comparison) add(other.method, other.map, &other.solve);
+
+    std::string table;
+    for (const auto& row : rows) {
+        std::string line;
+        for (std::size_t column = 0; column < row.size(); ++column) {
+            std::size_t width = 0;
+            for (const auto& other : rows) width = std::max(width, other[column].size());
+            const bool unused =
+                std::all_of(rows.begin() + 1, rows.end(), [&](const auto& r) { return r[column].empty(); });
+            if (unused) continue;
+            line +=
+                column == 0 ? fmt::format("{:<{}}", row[column], width) : fmt::format("  {:>{}}", row[column], width);
+        }
+        while (!line.empty() && line.back() == ' ') line.pop_back();
+        table += line + "\n";
+    }
+    return table;
+}
+
+}  // namespace beltrami

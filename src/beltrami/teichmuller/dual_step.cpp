@@ -1,0 +1,184 @@
+#include <beltrami/teichmuller/dual_step.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace beltrami {
+
+namespace {
+
+/// |φ| is floored at this part of its maximum, where its direction means nothing.
+constexpr double kFloor = 1e-12;
+constexpr double kGradientTolerance = 1e-12;
+
+/// Real view of the coefficients: (Re c, Im c), or Re c alone.
+struct RealView {
+    bool complex;
+    Eigen::VectorXd pack(const Eigen::VectorXcd& c) const {
+        if (!complex) return c.real();
+        Eigen::VectorXd x(2 * c.size());
+        x << c.real(), c.imag();
+        return x;
+    }
+    Eigen::VectorXcd unpack(const Eigen::VectorXd& x) const {
+        if (!complex) return x.cast<Complex>();
+        const Eigen::Index m = x.size() / 2;
+        Eigen::VectorXcd c(m);
+        c.real() = x.head(m);
+        c.imag() = x.tail(m);
+        return c;
+    }
+    /// Gradient in the real view of x ↦ Re Σ p_j c_j.
+    Eigen::VectorXd covector(const Eigen::VectorXcd& p) const {
+        if (!complex) return p.real();
+        Eigen::VectorXd x(2 * p.size());
+        x << p.real(), -p.imag();
+        return x;
+    }
+};
+
+}  // namespace
+
+Eigen::VectorXcd dual_gradient(const Eigen::MatrixXcd& basis, const Eigen::VectorXd& weights,
+                               const Eigen::VectorXcd& phi) {
+    Eigen::VectorXd sizes = phi.cwiseAbs();
+    sizes = sizes.cwiseMax(kFloor * sizes.maxCoeff());
+    return basis.transpose() * weights.cwiseQuotient(sizes).cast<Complex>().cwiseProduct(phi.conjugate());
+}
+
+double dilatation_of_pairing(double S) {
+    S = std::clamp(S, -1.0, 1.0);
+    return S / (1 + std::sqrt(1 - S * S));
+}
+
+DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& start, int max_newton_steps) {
+    const Eigen::Index m = problem.basis.cols(), points = problem.basis.rows();
+    const RealView view{problem.complex_coefficients};
+    const Eigen::VectorXd p = view.covector(problem.pairing);
+    DualSolution solution;
+    solution.coefficients = Eigen::VectorXcd::Zero(m);
+    if (!(p.squaredNorm() > 0)) return solution;
+
+    Eigen::VectorXcd c = Eigen::VectorXcd::Zero(m);
+    if (start.size() > 0 && start.size() <= m) c.head(start.size()) = start;
+    double along = p.dot(view.pack(c));
+    if (!(along > 0)) {
+        c = view.unpack(p);
+        along = p.squaredNorm();
+    }
+    Eigen::VectorXd x = view.pack(c) / along;
+
+    const Eigen::VectorXd q =
+        problem.correction.size() ? view.covector(problem.correction) : Eigen::VectorXd::Zero(x.size());
+    const auto norm_of = [&](const Eigen::VectorXcd& phi, const Eigen::VectorXd& at) {
+        return problem.weights.dot(phi.cwiseAbs()) + q.dot(at);
+    };
+    Eigen::VectorXcd phi = problem.basis * view.unpack(x);
+    double norm = norm_of(phi, x);
+    Eigen::MatrixXd rows(points, x.size());
+    Eigen::VectorXd sizes(points);
+    for (; solution.newton_steps < max_newton_steps; ++solution.newton_steps) {
+        sizes = phi.cwiseAbs();
+        sizes = sizes.cwiseMax(kFloor * sizes.maxCoeff());
+        const Eigen::VectorXcd u = phi.conjugate().cwiseQuotient(sizes.cast<Complex>());
+        const Eigen::VectorXd gradient = view.covector(dual_gradient(problem.basis, problem.weights, phi)) + q;
+
+        // Hessian Σ w/|φ| Im(u φ_i) Im(u φ_j), as a product of scaled rows.
+        const Eigen::VectorXd scale = problem.weights.cwiseQuotient(sizes).cwiseSqrt();
+        for (Eigen::Index j = 0; j < m; ++j) {
+            const Eigen::VectorXcd column = u.cwiseProduct(problem.basis.col(j));
+            rows.col(j) = scale.cwiseProduct(column.imag());
+            if (view.complex) rows.col(m + j) = scale.cwiseProduct(column.real());
+        }
+        Eigen::MatrixXd hessian = Eigen::MatrixXd::Zero(x.size(), x.size());
+        hessian.selfadjointView<Eigen::Lower>().rankUpdate(rows.transpose());
+        // c itself is a null direction (N is homogeneous of degree one). On the hyperplane a multiple of p pᵀ changes
+        // nothing and makes the matrix definite; the tiny shift is for functions that no quadrature point sees.
+        const double mean_diagonal = hessian.trace() / static_cast<double>(x.size());
+        hessian.selfadjointView<Eigen::Lower>().rankUpdate(p, mean_diagonal / p.squaredNorm());
+        hessian.diagonal().array() += 1e-14 * mean_diagonal;
+        const Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> cholesky(hessian);
+        if (cholesky.info() != Eigen::Success) break;
+        const Eigen::VectorXd by_gradient = cholesky.solve(gradient), by_constraint = cholesky.solve(p);
+        const double multiplier = p.dot(by_gradient) / p.dot(by_constraint);
+        const Eigen::VectorXd step = multiplier * by_constraint - by_gradient;
+        const double slope = gradient.dot(step);
+        if (!(slope < -kGradientTolerance * kGradientTolerance * norm)) break;
+
+        double length = 1;
+        bool accepted = false;
+        for (int halving = 0; halving < 40; ++halving, length *= 0.5) {
+            const Eigen::VectorXd trial = x + length * step;
+            Eigen::VectorXcd trial_phi = problem.basis * view.unpack(trial);
+            const double trial_norm = norm_of(trial_phi, trial);
+            if (trial_norm <= norm + 1e-4 * length * slope) {
+                x = trial / p.dot(trial);
+                phi = std::move(trial_phi);
+                accepted = true;
+                norm = trial_norm;
+                break;
+            }
+        }
+        if (!accepted) break;
+        if (-slope < kGradientTolerance * norm) {
+            ++solution.newton_steps;
+            break;
+        }
+    }
+    solution.coefficients = view.unpack(x);
+    solution.pairing = p.dot(x);
+    solution.norm = norm;
+    return solution;
+}
+
+SampleClusters cluster_samples(const Operators& operators, const Chart& chart, double phase, int target_count) {
+    const int samples = operators.sample_count();
+    SampleClusters result;
+    result.cluster.assign(samples, -1);
+    result.squared.assign(samples, 0.0);
+    double total = 0;
+    int included = 0;
+    for (int s = 0; s < samples; ++s) {
+        if (chart.excluded[s]) continue;
+        result.squared[s] = operators.weights[s] * std::norm(chart.derivatives[s]);
+        total += result.squared[s];
+        ++included;
+    }
+    std::vector<int> order;
+    order.reserve(included);
+    for (int s = 0; s < samples; ++s)
+        if (!chart.excluded[s]) order.push_back(s);
+    int clusters = 0;
+    if (included <= target_count) {
+        for (const int s : order) result.cluster[s] = clusters++;
+    } else {
+        // Square cells; the offset keeps the lines off points of regular meshes.
+        const double cell = std::sqrt(total / target_count);
+        const Complex turn = std::polar(1.0, -phase);
+        std::vector<std::pair<int, int>> key(samples);
+        for (const int s : order) {
+            const Complex z = turn * chart.positions[s] / cell;
+            key[s] = {static_cast<int>(std::floor(z.real() + 0.38196601)),
+                      static_cast<int>(std::floor(z.imag() + 0.61803399))};
+        }
+        std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return key[a] < key[b]; });
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            if (i > 0 && key[order[i]] != key[order[i - 1]]) ++clusters;
+            result.cluster[order[i]] = clusters;
+        }
+        ++clusters;
+    }
+    result.points.positions = Eigen::VectorXcd::Zero(clusters);
+    result.points.derivatives = Eigen::VectorXcd::Ones(clusters);
+    Eigen::VectorXd mass = Eigen::VectorXd::Zero(clusters);
+    for (const int s : order) {
+        result.points.positions[result.cluster[s]] += result.squared[s] * chart.positions[s];
+        mass[result.cluster[s]] += result.squared[s];
+    }
+    for (int q = 0; q < clusters; ++q) result.points.positions[q] /= mass[q];
+    return result;
+}
+
+}  // namespace beltrami

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <beltrami/differentials/differential_space.h>
+
+namespace beltrami {
+
+/// The c-step: the quadratic differential φ_c = Σ c_j φ_j that sees most of a Beltrami coefficient μ,
+///
+///     S/2 = max_c  Re Σ A b φ_c / Σ A a |φ_c|,    a = (1+|μ|²)/(1−|μ|²),   b = μ/(1−|μ|²).
+///
+/// If μ = k conj(φ)/|φ| with φ in the space, the maximum is there and S = 2k/(1+k²). As a convex problem: minimise
+/// N(c) = Σ A a |φ_c| on the hyperplane Re Σ A b φ_c = 1, by Newton with backtracking.
+struct DualProblem {
+    Eigen::MatrixXcd basis;       ///< #Q×m values of the basis at quadrature points
+    Eigen::VectorXd weights;      ///< #Q weights of |φ|
+    Eigen::VectorXcd pairing;     ///< m values p_j = Σ A b φ_j
+    /// m values q_j added to the norm as Re Σ q_j c_j, or empty: what the gradient of the exact norm has beyond that of a
+    /// coarse quadrature. The minimum of the corrected problem is the exact one as soon as q is taken there.
+    Eigen::VectorXcd correction;
+    bool complex_coefficients;    ///< c complex, or real
+};
+
+struct DualSolution {
+    Eigen::VectorXcd coefficients;  ///< on the hyperplane; zero if the pairing vanishes
+    double pairing = 0;             ///< Re Σ p_j c_j: 1, or 0 if the pairing vanishes
+    double norm = 0;                ///< N(c), correction included
+    int newton_steps = 0;
+};
+
+/// @param start coefficients to start from (may be shorter than m: padded by zeros; may be empty); ignored when its pairing is
+///              not positive
+DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& start, int max_newton_steps = 50);
+
+/// m values Σ w conj(φ)/|φ| φ_j: the gradient of Σ w|φ_c| as a complex covector. |φ| is floored at 1e-12 of its maximum.
+Eigen::VectorXcd dual_gradient(const Eigen::MatrixXcd& basis, const Eigen::VectorXd& weights, const Eigen::VectorXcd& phi);
+
+/// k of S = 2k/(1+k²), without cancellation.
+double dilatation_of_pairing(double S);
+
+/// A coarser quadrature of ∫ a|φ|: samples near each other in the canonical domain share one point, for φ varies slowly
+/// there while μ is noisy. Pairings stay exact; the norm is summed over the clusters and corrected to first order.
+struct SampleClusters {
+    std::vector<int> cluster;    ///< #S cluster of the sample, −1 for an excluded one
+    ChartPoints points;          ///< #Q centroids (weighted by area in the domain), derivatives 1
+    std::vector<double> squared; ///< #S A |derivative|²: area in the domain
+};
+
+/// @param phase rotation of the grid, to be tied to the data so that turning the source changes nothing
+/// @param target_count about how many clusters; at most as many as samples
+SampleClusters cluster_samples(const Operators& operators, const Chart& chart, double phase, int target_count);
+
+}  // namespace beltrami

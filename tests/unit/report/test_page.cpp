@@ -1,0 +1,312 @@
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include <beltrami/mesh/error.h>
+#include <beltrami/report/drawing.h>
+#include <beltrami/report/page.h>
+
+namespace beltrami {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+enum class Faces { triangles, quads };
+
+/// A bumpy square of n×n cells, far from the origin.
+Mesh bumpy_square(int n, Faces kind = Faces::triangles) {
+    Mesh mesh;
+    mesh.positions.resize((n + 1) * (n + 1), 3);
+    for (int row = 0; row <= n; ++row) {
+        for (int column = 0; column <= n; ++column) {
+            const double x = 2.0 * column / n - 1.0;
+            const double y = 2.0 * row / n - 1.0;
+            const int v = row * (n + 1) + column;
+            mesh.positions.row(v) << 1e6 + x, y, 0.2 * std::cos(4.0 * x) * std::sin(3.0 * y + 1.0);
+            if (row == n || column == n) continue;
+            if (kind == Faces::quads) {
+                mesh.faces.add({v, v + 1, v + n + 2, v + n + 1});
+            } else {
+                mesh.faces.add({v, v + 1, v + n + 2});
+                mesh.faces.add({v, v + n + 2, v + n + 1});
+            }
+        }
+    }
+    return mesh;
+}
+
+/// The mesh seen from above, made up |μ| = 0.3.
+PageMap flat_map(const Mesh& mesh, const std::string& name = "extremal") {
+    return {name, mesh.positions.leftCols(2), Eigen::VectorXd::Constant(mesh.face_count(), 0.3)};
+}
+
+PageContent content_of(const Mesh& mesh, std::vector<PageMap> maps) {
+    return {.source = mesh,
+            .maps = std::move(maps),
+            .history_k = {0.4, 0.31, 0.3},
+            .history_change = {0.1, 0.01, nan},
+            .record_json = R"({"schema":1,"map":{"K":1.857,"K_lower":1.85,"K_max":null}})",
+            .title = "bumpy square"};
+}
+
+std::string between(const std::string& text, const std::string& begin, const std::string& end) {
+    const std::size_t from = text.find(begin) + begin.size();
+    return text.substr(from, text.find(end, from) - from);
+}
+
+Json data_of(const std::string& html) {
+    return Json::parse(between(html, R"(<script type="application/json" id="data">)", "</script>"));
+}
+
+std::vector<std::uint32_t> decode_words(const std::string& base64) {
+    const std::string letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::vector<std::uint32_t> bytes;
+    std::uint32_t bits = 0;
+    int held = 0;
+    for (const char c : base64.substr(0, base64.find('='))) {
+        bits = (bits << 6) | static_cast<std::uint32_t>(letters.find(c));
+        held += 6;
+        if (held < 8) continue;
+        held -= 8;
+        bytes.push_back((bits >> held) & 0xffU);
+    }
+    EXPECT_EQ(base64.size() % 4, 0U);
+    EXPECT_EQ(bytes.size() % 4, 0U);
+    std::vector<std::uint32_t> words;
+    for (std::size_t i = 0; i + 3 < bytes.size(); i += 4) {
+        words.push_back(bytes[i] | bytes[i + 1] << 8 | bytes[i + 2] << 16 | bytes[i + 3] << 24);
+    }
+    return words;
+}
+
+std::vector<float> decode_floats(const std::string& base64) {
+    std::vector<float> floats;
+    for (const std::uint32_t word : decode_words(base64)) floats.push_back(std::bit_cast<float>(word));
+    return floats;
+}
+
+double histogram_total(const Json& histogram) {
+    double total = 0.0;
+    for (const double share : histogram["bins"]) total += share;
+    for (const char* name : {"above", "flipped", "undefined"}) total += histogram[name].get<double>();
+    return total;
+}
+
+TEST(Page, FetchesNothing) {
+    const Mesh mesh = bumpy_square(4);
+    const std::string html = render_page(content_of(mesh, {flat_map(mesh)}));
+    for (const char* outside : {"http:", "https:", "//www", "@import", "url(", "<link", "src=", "import("}) {
+        EXPECT_EQ(html.find(outside), std::string::npos) << outside;
+    }
+    for (const char* mark : {"@TITLE@", "@HEADING@", "@DATA@", "@page.css@", "@view.js@"}) {
+        EXPECT_EQ(html.find(mark), std::string::npos) << mark;
+    }
+    EXPECT_NE(html.find("<title>bumpy square</title>"), std::string::npos);
+    EXPECT_NE(html.find("<h1>bumpy square</h1>"), std::string::npos);
+    EXPECT_TRUE(html.ends_with("</html>\n"));
+}
+
+TEST(Page, EscapesEveryText) {
+    const Mesh mesh = bumpy_square(2);
+    const std::string hostile = "</script><b>&\"@DATA@<!--\xff";
+    PageContent content = content_of(mesh, {flat_map(mesh, hostile)});
+    content.title = "</title>" + hostile;
+    content.record_json = R"({"warnings":["</script><b>"]})";
+    const std::string html = render_page(content);
+    EXPECT_EQ(html.find("<b>"), std::string::npos);
+    EXPECT_EQ(html.find("<!--"), std::string::npos);
+    EXPECT_EQ(between(html, "<title>", "</title>"),
+              "&lt;/title&gt;&lt;/script&gt;&lt;b&gt;&amp;&quot;@DATA@&lt;!--\xef\xbf\xbd");
+    const Json data = data_of(html);
+    EXPECT_EQ(data["maps"][0]["name"], "</script><b>&\"@DATA@<!--\xef\xbf\xbd");
+    EXPECT_EQ(data["record"]["warnings"][0], "</script><b>");
+}
+
+TEST(Page, ArraysHaveTheSizesOfTheMesh) {
+    const Mesh mesh = bumpy_square(5);
+    const Json data = data_of(render_page(content_of(mesh, {flat_map(mesh), flat_map(mesh, "harmonic")})));
+    EXPECT_EQ(data["faces"], 50);
+    EXPECT_EQ(data["coarsened"], false);
+    EXPECT_FALSE(data.contains("face"));
+    const auto triangles = decode_words(data["triangles"]);
+    ASSERT_EQ(triangles.size(), 150U);
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        EXPECT_EQ(triangles[i], static_cast<std::uint32_t>(mesh.faces.vertices()[i]));
+    }
+    EXPECT_EQ(data["source"]["dimension"], 3);
+    EXPECT_EQ(decode_floats(data["source"]["coordinates"]).size(), 108U);
+    ASSERT_EQ(data["maps"].size(), 2U);
+    for (const Json& map : data["maps"]) {
+        EXPECT_EQ(map["dimension"], 2);
+        EXPECT_EQ(decode_floats(map["coordinates"]).size(), 72U);
+        EXPECT_EQ(decode_floats(map["abs_mu"]), std::vector<float>(50, 0.3F));
+        EXPECT_NEAR(map["p99"], 0.3, 1e-15);
+        EXPECT_NEAR(histogram_total(map["histogram"]), 1.0, 1e-12);
+    }
+    EXPECT_TRUE(data["history"]["change"][2].is_null());
+    EXPECT_EQ(data["record"]["map"]["K"], 1.857);
+}
+
+TEST(Page, PositionsKeepTheirDigitsFarFromTheOrigin) {
+    const Mesh mesh = bumpy_square(5);
+    const Json data = data_of(render_page(content_of(mesh, {flat_map(mesh)})));
+    const auto points = decode_floats(data["source"]["coordinates"]);
+    for (int v = 0; v < mesh.vertex_count(); ++v) {
+        EXPECT_NEAR(points[static_cast<std::size_t>(3 * v)], mesh.positions(v, 0) - 1e6, 1e-7);
+        EXPECT_NEAR(points[static_cast<std::size_t>(3 * v + 1)], mesh.positions(v, 1), 1e-7);
+    }
+}
+
+TEST(Page, UndefinedAndFlippedFacesAreCountedApart) {
+    const Mesh mesh = bumpy_square(10);
+    PageMap map = flat_map(mesh);
+    map.map.row(7).setConstant(nan);
+    map.abs_mu[0] = nan;
+    map.abs_mu[1] = 1.5;
+    map.abs_mu[2] = infinity;
+    const Json data = data_of(render_page(content_of(mesh, {map})));
+    const auto mu = decode_floats(data["maps"][0]["abs_mu"]);
+    EXPECT_TRUE(std::isnan(mu[0]));
+    EXPECT_EQ(mu[1], 1.5F);
+    EXPECT_TRUE(std::isinf(mu[2]));
+    const auto points = decode_floats(data["maps"][0]["coordinates"]);
+    EXPECT_TRUE(std::isnan(points[14]));
+    EXPECT_EQ(points[0], -1.0F);
+    const Json& histogram = data["maps"][0]["histogram"];
+    const auto area = [&](int face) { return face_vector_area(mesh, face).norm(); };
+    double total = 0.0;
+    for (int face = 0; face < mesh.face_count(); ++face) total += area(face);
+    EXPECT_NEAR(histogram["undefined"], area(0) / total, 1e-12);
+    EXPECT_NEAR(histogram["flipped"], (area(1) + area(2)) / total, 1e-12);
+    EXPECT_NEAR(histogram_total(histogram), 1.0, 1e-12);
+}
+
+TEST(Page, QuadsAreSplitForDrawing) {
+    const Mesh mesh = bumpy_square(4, Faces::quads);
+    const Json data = data_of(render_page(content_of(mesh, {flat_map(mesh)})));
+    EXPECT_EQ(data["faces"], 16);
+    EXPECT_EQ(decode_words(data["triangles"]).size(), 96U);
+    EXPECT_EQ(decode_floats(data["maps"][0]["abs_mu"]).size(), 32U);
+    const auto faces = decode_words(data["face"]);
+    ASSERT_EQ(faces.size(), 32U);
+    for (std::size_t t = 0; t < faces.size(); ++t) EXPECT_EQ(faces[t], t / 2);
+}
+
+TEST(Page, ImageInSpaceKeepsThreeCoordinatesAFlatOneTwo) {
+    const Mesh mesh = bumpy_square(3);
+    PageMap space{"space", mesh.positions, Eigen::VectorXd::Zero(mesh.face_count())};
+    PageMap flat = space;
+    flat.map.col(2).setZero();
+    const Json data = data_of(render_page(content_of(mesh, {space, flat})));
+    EXPECT_EQ(data["maps"][0]["dimension"], 3);
+    EXPECT_EQ(decode_floats(data["maps"][0]["coordinates"]).size(), 48U);
+    EXPECT_EQ(data["maps"][1]["dimension"], 2);
+    EXPECT_EQ(decode_floats(data["maps"][1]["coordinates"]).size(), 32U);
+}
+
+TEST(Page, LargeMeshIsCoarsenedForDrawingOnly) {
+    const Mesh mesh = bumpy_square(100);
+    PageMap map = flat_map(mesh);
+    for (int face = 0; face < mesh.face_count(); face += 2) map.abs_mu[face] = 0.1;
+    PageContent content = content_of(mesh, {map});
+    content.drawn_faces = 4000;
+    const Json data = data_of(render_page(content));
+    EXPECT_EQ(data["faces"], 20000);
+    EXPECT_EQ(data["coarsened"], true);
+    const auto triangles = decode_words(data["triangles"]);
+    EXPECT_LE(triangles.size() / 3, 4000U);
+    EXPECT_GE(triangles.size() / 3, 1000U);
+    const std::size_t vertices = decode_floats(data["source"]["coordinates"]).size() / 3;
+    EXPECT_EQ(decode_floats(data["maps"][0]["coordinates"]).size() / 2, vertices);
+    for (const std::uint32_t vertex : triangles) EXPECT_LT(vertex, vertices);
+    EXPECT_EQ(decode_words(data["face"]).size(), triangles.size() / 3);
+    // All faces are in the histogram: two bins of about half the area each.
+    double tall = 0.0;
+    for (const double share : data["maps"][0]["histogram"]["bins"]) tall += share > 0.49 ? share : 0.0;
+    EXPECT_NEAR(tall, 1.0, 1e-12);
+}
+
+TEST(Page, RefusesWhatDoesNotFit) {
+    const Mesh mesh = bumpy_square(3);
+    const auto cause_of = [](const PageContent& content) {
+        try {
+            render_page(content);
+        } catch (const Error& error) {
+            return error.cause();
+        }
+        return Cause::cancelled;
+    };
+    EXPECT_EQ(cause_of(content_of(mesh, {})), Cause::bad_option);
+    PageMap few = flat_map(mesh);
+    few.abs_mu.conservativeResize(3);
+    EXPECT_EQ(cause_of(content_of(mesh, {few})), Cause::bad_option);
+    PageMap short_map = flat_map(mesh);
+    short_map.map.conservativeResize(5, 2);
+    EXPECT_EQ(cause_of(content_of(mesh, {short_map})), Cause::bad_option);
+    for (const char* record : {"", "[1]", "{\"a\":", "{\"a\":NaN}"}) {
+        PageContent content = content_of(mesh, {flat_map(mesh)});
+        content.record_json = record;
+        EXPECT_EQ(cause_of(content), Cause::bad_option) << record;
+    }
+}
+
+TEST(Drawing, SplitsAQuadAlongItsShorterDiagonal) {
+    Mesh mesh;
+    mesh.positions.resize(4, 2);
+    mesh.positions << 0.0, 0.0, 2.0, 0.0, 2.5, 1.0, 0.5, 0.3;  // 1–3 is shorter than 0–2
+    mesh.faces.add({0, 1, 2, 3});
+    const Drawing drawing = make_drawing(mesh, 10);
+    ASSERT_EQ(drawing.triangles.size(), 2U);
+    EXPECT_EQ(drawing.triangles[0], (std::array<int, 3>{1, 2, 3}));
+    EXPECT_EQ(drawing.triangles[1], (std::array<int, 3>{1, 3, 0}));
+}
+
+TEST(Drawing, CoarseVerticesAreMeans) {
+    const Mesh mesh = bumpy_square(40);
+    const Drawing drawing = make_drawing(mesh, 500);
+    ASSERT_TRUE(drawing.coarsened());
+    Positions values = mesh.positions;
+    values.row(0).setConstant(nan);
+    const Positions reduced = drawing.reduce(values);
+    ASSERT_EQ(reduced.rows(), drawing.vertex_count);
+    EXPECT_TRUE(reduced.allFinite());
+    for (const auto& triangle : drawing.triangles) {
+        const auto point = [&](int i) { return Eigen::Vector3d(reduced.row(triangle[static_cast<std::size_t>(i)])); };
+        EXPECT_LT((point(1) - point(0)).norm(), 0.6);
+    }
+}
+
+/// For the check in a browser: pages of every kind, written where BELTRAMI_PAGES says.
+TEST(Page, WritesPagesForTheBrowserCheck) {
+    const char* folder = std::getenv("BELTRAMI_PAGES");
+    if (folder == nullptr) GTEST_SKIP() << "BELTRAMI_PAGES is not set";
+    const auto write = [&](const std::string& name, const PageContent& content) {
+        std::ofstream(std::string(folder) + "/" + name) << render_page(content);
+    };
+    const Mesh triangles = bumpy_square(30);
+    PageMap broken = flat_map(triangles, "</script><b>broken");
+    broken.abs_mu.head(3) << nan, infinity, 1.5;
+    broken.map.row(40).setConstant(nan);
+    write("triangles.html", content_of(triangles, {flat_map(triangles), broken}));
+    const Mesh quads = bumpy_square(20, Faces::quads);
+    PageContent space = content_of(quads, {{"space", quads.positions, Eigen::VectorXd::Zero(quads.face_count())}});
+    space.record_json = "{}";
+    space.history_k.clear();
+    space.history_change.clear();
+    write("quads_in_space.html", space);
+    PageContent coarse = content_of(triangles, {flat_map(triangles)});
+    coarse.drawn_faces = 500;
+    write("coarsened.html", coarse);
+}
+
+}  // namespace
+}  // namespace beltrami

@@ -1,0 +1,180 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <numeric>
+
+#include <beltrami/mesh/error.h>
+#include <beltrami/mesh/parallel.h>
+#include <beltrami/conformal/boundary_values.h>
+#include <beltrami/maps/beltrami_solver.h>
+#include <beltrami/teichmuller/extremal_map.h>
+
+#include "support/meshes.h"
+
+namespace beltrami {
+namespace {
+
+/// A bump with uneven boundary values carried along by the mesh.
+struct Problem {
+    Mesh mesh = test::bump(2500);
+    std::vector<std::pair<int, Complex>> values;
+
+    Problem() {
+        const Surface surface(mesh);
+        const BoundaryCondition b = test::boundary_values(surface, test::three_lobes);
+        for (std::size_t i = 0; i < b.vertices.size(); ++i) values.emplace_back(b.vertices[i], b.images[i]);
+    }
+    ExtremalMap solve() const {
+        const Surface surface(mesh);
+        BoundaryCondition b;
+        for (const auto& [v, image] : values) b.pin(v, image);
+        return extremal_map(surface, b);
+    }
+};
+
+TEST(ExtremalMap, DoesNotDependOnPlaceAndScale) {
+    const double k = Problem().solve().k;
+    const Eigen::Quaterniond rotation = Eigen::Quaterniond(0.4, 0.2, -0.7, 0.5).normalized();
+    for (const double scale : {1e-6, 1.0, 1e6}) {
+        Problem moved;
+        for (int v = 0; v < moved.mesh.vertex_count(); ++v)
+            moved.mesh.positions.row(v) = (scale * (rotation * moved.mesh.point(v) + Eigen::Vector3d(10, -20, 5))).transpose();
+        for (auto& [v, image] : moved.values) image = 7.0 * scale * std::polar(1.0, 2.0) * image + 3.0 * scale;
+        EXPECT_NEAR(moved.solve().k / k, 1, 1e-8) << scale;
+    }
+}
+
+TEST(ExtremalMap, DoesNotDependOnThePlaceInThePlane) {
+    Problem flat;
+    flat.mesh.positions.col(2).setZero();
+    const double k = flat.solve().k;
+    for (const double scale : {1e-6, 1e6}) {
+        Problem moved = flat;
+        for (int v = 0; v < moved.mesh.vertex_count(); ++v) {
+            const Complex z = scale * (std::polar(1.0, 1.0) * Complex(moved.mesh.positions(v, 0), moved.mesh.positions(v, 1)) + 5.0);
+            moved.mesh.positions.row(v) << z.real(), z.imag(), 0;
+        }
+        EXPECT_NEAR(moved.solve().k / k, 1, 1e-8) << scale;
+    }
+}
+
+TEST(ExtremalMap, DoesNotDependOnNumbering) {
+    const Problem original;
+    const double k = original.solve().k;
+    std::vector<int> order(original.mesh.vertex_count());
+    std::iota(order.begin(), order.end(), 0);
+    for (std::size_t i = 0; i < order.size(); ++i) std::swap(order[i], order[(i * 7919 + 13) % order.size()]);
+    Problem renumbered;
+    renumbered.mesh.faces = {};
+    for (std::size_t v = 0; v < order.size(); ++v) renumbered.mesh.positions.row(order[v]) = original.mesh.positions.row(static_cast<int>(v));
+    for (int f = original.mesh.face_count() - 1; f >= 0; --f) {
+        const auto v = original.mesh.faces[f];
+        renumbered.mesh.faces.add({order[v[2]], order[v[0]], order[v[1]]});
+    }
+    for (auto& [v, image] : renumbered.values) v = order[v];
+    EXPECT_NEAR(renumbered.solve().k / k, 1, 1e-8);
+}
+
+TEST(ExtremalMap, GivesTheSameBytesOnAnyNumberOfThreads) {
+    const int before = thread_count();
+    const Problem problem;
+    set_thread_count(1);
+    const ExtremalMap one = problem.solve();
+    set_thread_count(3);
+    const ExtremalMap three = problem.solve();
+    set_thread_count(before);
+    EXPECT_EQ(one.map, three.map);
+    EXPECT_EQ(one.k, three.k);
+    EXPECT_EQ(one.K_lower, three.K_lower);
+}
+
+TEST(ExtremalMap, IsBetterThanItsStartAndCertified) {
+    const ExtremalMap result = Problem().solve();
+    EXPECT_EQ(result.termination, Termination::converged);
+    EXPECT_TRUE(result.distortion.flipped.empty());
+    EXPECT_LE(result.K_lower, result.K);
+    EXPECT_LE(result.K, result.K_max);
+    EXPECT_LT((result.K - result.K_lower) / result.K, 0.01);
+    EXPECT_LT(result.distortion.standard_deviation, 0.03);
+    EXPECT_EQ(result.boundary_residual, 0.0);
+    for (const Bound& bound : result.bounds) EXPECT_LE(bound.kind == "attained" ? bound.K : 1.0, result.K_max);
+}
+
+TEST(ExtremalMap, ConformalBoundaryValuesGiveTheConformalMap) {
+    const Surface surface(disk(disk_rings_for_triangles(3000)));
+    const auto moebius = [](Complex z) { return (z + 0.4) / (1.0 + 0.4 * z); };
+    const ExtremalMap result = extremal_map(surface, test::boundary_values(surface, moebius));
+    EXPECT_EQ(result.termination, Termination::converged);
+    EXPECT_LT(result.k, 1e-3);
+    EXPECT_TRUE(result.distortion.flipped.empty());
+    // And the identity, whose coefficient is exactly 0.
+    const ExtremalMap identity = extremal_map(surface, test::boundary_values(surface, [](Complex z) { return z; }));
+    EXPECT_EQ(identity.termination, Termination::converged);
+    EXPECT_LT(identity.k, 1e-10);
+}
+
+TEST(ExtremalMap, QuadsGiveTheSameK) {
+    const Surface surface(test::quad_disk(22));
+    const ExtremalMap result = extremal_map(surface, test::boundary_values(surface, test::exact_composition));
+    EXPECT_TRUE(result.distortion.flipped.empty());
+    EXPECT_LE(result.K_lower, result.K);
+    EXPECT_LE(result.K, result.K_max);
+    EXPECT_LE(result.K_lower, 3.0);
+    EXPECT_NEAR(result.k, 0.5, 5e-4);
+}
+
+TEST(ExtremalMap, ACustomMetricIsTheSourceThatCounts) {
+    // The plane with the metric |dz + ¼ dz̄| instead of its own: boundary values z + ¼ z̄ are then conformal.
+    const Mesh mesh = disk(disk_rings_for_triangles(2000));
+    const auto stretch = [](Complex z) { return z + 0.25 * std::conj(z); };
+    Positions corners(mesh.faces.corner_count(), 2);
+    for (int c = 0; c < corners.rows(); ++c) {
+        const int v = mesh.faces.vertices()[c];
+        const Complex w = stretch({mesh.positions(v, 0), mesh.positions(v, 1)});
+        corners.row(c) << w.real(), w.imag();
+    }
+    const Surface surface(mesh, operators_from_corners(mesh, corners));
+    EXPECT_LT(extremal_map(surface, test::boundary_values(surface, stretch)).k, 1e-3);
+    EXPECT_NEAR(extremal_map(Surface(mesh), test::boundary_values(surface, stretch)).k, 0.25, 1e-6);
+}
+
+TEST(ExtremalMap, WhatItCannotDoIsAnErrorWithItsCause) {
+    const auto cause_of = [](const auto& attempt) {
+        try {
+            attempt();
+        } catch (const Error& error) {
+            return error.cause();
+        }
+        return Cause::unreadable;
+    };
+    const Surface surface(disk(disk_rings_for_triangles(200)));
+    BoundaryCondition part = test::boundary_values(surface, [](Complex z) { return z; });
+    BoundaryCondition inside = part;
+    part.vertices.pop_back();
+    part.images.pop_back();
+    EXPECT_EQ(cause_of([&] { extremal_map(surface, part); }), Cause::bad_boundary);
+    int inner = 0;
+    while (surface.topology.on_boundary[inner]) ++inner;
+    inside.pin(inner, 0.0);
+    EXPECT_EQ(cause_of([&] { extremal_map(surface, inside); }), Cause::bad_boundary);
+    ExtremalOptions options;
+    options.tolerance = -1;
+    EXPECT_EQ(cause_of([&] { extremal_map(surface, inside, options); }), Cause::bad_option);
+    options = {};
+    options.progress = [](int, double) { return false; };
+    EXPECT_EQ(cause_of([&] { extremal_map(surface, test::boundary_values(surface, test::three_lobes), options); }), Cause::cancelled);
+}
+
+TEST(ExtremalMap, AnIterationLimitIsSaid) {
+    const Surface surface(disk(disk_rings_for_triangles(500)));
+    ExtremalOptions options;
+    options.max_iterations = 2;
+    const ExtremalMap result = extremal_map(surface, test::boundary_values(surface, test::three_lobes), options);
+    EXPECT_EQ(result.termination, Termination::iteration_limit);
+    EXPECT_EQ(result.iterations, 2);
+    EXPECT_FALSE(result.warnings.empty());
+}
+
+}  // namespace
+}  // namespace beltrami
