@@ -162,7 +162,7 @@ Mesh triangulate(const PlanarDomain& domain, const TriangulateOptions& options) 
     triangulation.restore_delaunay();
     triangulation.mark_inside();
     Refinement refinement(triangulation, domain, options, curve_ends(domain, vertex_of));
-    refinement.refine();
+    if (options.size || options.min_angle > 0.0) refinement.refine();
     refinement.smooth();
     if (options.split_ears) refinement.split_ears();
     return extract(triangulation, vertex_of);

@@ -57,7 +57,9 @@ TEST(CircleDomain, BoundaryVerticesLieOnTheirCircles) {
             EXPECT_GE(topo.boundary_loops[k].size(), 16u);
         }
         for (const int count : seen) EXPECT_EQ(count, 1);
-        if (jitter == 0.0) EXPECT_GE(quality(mesh).min_angle, 25.0 * degree);
+        if (jitter == 0.0) {
+            EXPECT_GE(quality(mesh).min_angle, 25.0 * degree);
+        }
     }
 }
 
@@ -69,7 +71,9 @@ TEST(CircleDomain, AreaConvergesWithOrderTwo) {
         DomainOptions options{.edge_length = h};
         options.least_hole_edges = 6;
         const double error = std::abs(total_area(circle_domain({}, holes, options)) - exact);
-        if (last > 0.0) EXPECT_NEAR(std::log2(last / error), 2.0, 0.35);
+        if (last > 0.0) {
+            EXPECT_NEAR(std::log2(last / error), 2.0, 0.35);
+        }
         last = error;
     }
     EXPECT_LT(last, 2e-4);

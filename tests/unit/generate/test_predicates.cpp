@@ -64,11 +64,11 @@ TEST(Predicates, OrientIsAntisymmetricWhereDoublesRound) {
         for (int j = 0; j < 64; ++j) {
             const Eigen::Vector2d p(0.5 + i * bit, 0.5 + j * bit), q(12, 12), r(24, 24);
             const int expected = sign(static_cast<double>(j - i));
-            ASSERT_EQ(sign(orient2d(p, q, r)), -expected);
-            ASSERT_EQ(sign(orient2d(q, r, p)), -expected);
-            ASSERT_EQ(sign(orient2d(q, p, r)), expected);
+            ASSERT_EQ(sign(orient2d(p, q, r)), expected);
+            ASSERT_EQ(sign(orient2d(q, r, p)), expected);
+            ASSERT_EQ(sign(orient2d(q, p, r)), -expected);
             const double naive = (q.x() - p.x()) * (r.y() - p.y()) - (q.y() - p.y()) * (r.x() - p.x());
-            naive_errors += sign(naive) != -expected;
+            naive_errors += sign(naive) != expected;
         }
     }
     EXPECT_GT(naive_errors, 0);
