@@ -199,6 +199,11 @@ TEST(Defects, SliverFace) {
     }
 }
 
+TEST(Defects, VeryThinIsASliverNotWithoutArea) {
+    expect_only(planar({{0, 0}, {1, 0}, {1, 1e-12}}, {{0, 1, 2}}), Defect::sliver_face, false, {0});
+    expect_only(planar({{0, 0}, {1, 0}, {1, 1e-14}}, {{0, 1, 2}}), Defect::zero_area_face, true, {0});
+}
+
 TEST(Defects, FoldedPlanarFace) {
     // Coherently oriented, but the second face lies over the first.
     expect_only(planar({{0, 0}, {1, 0}, {0, 1}, {0.2, 0.1}, {1, 1}}, {{0, 1, 2}, {2, 1, 4}, {0, 3, 1}}),

@@ -3,8 +3,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numbers>
+#include <optional>
 
 #include <beltrami/conformal/flatten.h>
 #include <beltrami/maps/beltrami_solver.h>
@@ -41,43 +41,41 @@ std::pair<Complex, double> boundary_circle(const Surface& source, const Eigen::V
     return {centre, radius};
 }
 
-/// Harmonic extensions into a surface with fixed boundary values, and conjugates.
-class HarmonicExtension {
-  public:
-    explicit HarmonicExtension(const Surface& source)
-        : source_(source), freedom_(source.mesh.vertex_count(), Freedom::fixed) {
-        for (const int v : source.mesh.faces.vertices())
-            if (!source.topology.on_boundary[v]) freedom_[v] = Freedom::free;
-        solver_ = std::make_unique<BeltramiSolver>(source, freedom_, 1);
-        solver_->factorize(zero());
-    }
+/// What makes the chart's two linear solves: extension of boundary values, and the conjugate function.
+struct HarmonicFunctions {
+    const Surface& source;
+    const BeltramiSolver& dirichlet;
 
     /// The real harmonic function with the values of @p boundary on the boundary.
-    Eigen::VectorXd extend(const Eigen::VectorXd& boundary) const {
-        return solver_->solve(boundary.cast<Complex>()).real();
-    }
+    Eigen::VectorXd extend(const Eigen::VectorXd& boundary) const { return dirichlet.solve(boundary.cast<Complex>()).real(); }
 
     /// h + i h* with ∂̄(h + i h*) least and h* = 0 at the first boundary vertex.
     Eigen::VectorXcd with_conjugate(const Eigen::VectorXd& h) const {
-        std::vector<Freedom> freedom(freedom_.size(), Freedom::fixed);
-        for (const int v : source_.mesh.faces.vertices()) freedom[v] = Freedom::sliding;
-        freedom[source_.topology.boundary_loops[0][0]] = Freedom::fixed;
-        BeltramiSolver conjugate(source_, freedom, 1);
-        conjugate.factorize(zero(), Eigen::VectorXcd::Constant(source_.mesh.vertex_count(), Complex(0, 1)));
+        std::vector<Freedom> freedom(h.size(), Freedom::fixed);
+        for (const int v : source.mesh.faces.vertices()) freedom[v] = Freedom::sliding;
+        freedom[source.topology.boundary_loops[0][0]] = Freedom::fixed;
+        BeltramiSolver conjugate(source, freedom, 1);
+        conjugate.factorize(Eigen::VectorXcd::Zero(source.operators.sample_count()), Eigen::VectorXcd::Constant(h.size(), Complex(0, 1)));
         return conjugate.solve(h.cast<Complex>());
     }
-
-  private:
-    Eigen::VectorXcd zero() const { return Eigen::VectorXcd::Zero(source_.operators.sample_count()); }
-
-    const Surface& source_;
-    std::vector<Freedom> freedom_;
-    std::unique_ptr<BeltramiSolver> solver_;
 };
+
+/// A solver that fixes exactly the boundary, factorised for harmonic maps.
+BeltramiSolver dirichlet_solver(const Surface& source) {
+    std::vector<Freedom> freedom(source.mesh.vertex_count(), Freedom::fixed);
+    for (const int v : source.mesh.faces.vertices())
+        if (!source.topology.on_boundary[v]) freedom[v] = Freedom::free;
+    BeltramiSolver solver(source, freedom, 1);
+    solver.factorize(Eigen::VectorXcd::Zero(source.operators.sample_count()));
+    return solver;
+}
+
+/// The tolerance to which a surface is flattened for a chart, whose own discretisation error is far larger.
+constexpr double kFlattenTolerance = 1e-8;
 
 /// An inner vertex deep inside: where the solution of −Δψ = 1, ψ = 0 on the boundary of the flattened surface is
 /// largest.
-int deepest_vertex(const Surface& source, const HarmonicExtension& harmonic, const Eigen::VectorXcd& w) {
+int deepest_vertex(const Surface& source, const HarmonicFunctions& harmonic, const Eigen::VectorXcd& w) {
     const Eigen::VectorXd squares = w.cwiseAbs2();
     const Eigen::VectorXd depth = harmonic.extend(squares) - squares;  // 4ψ, as Δ|w|² = 4
     int deepest = -1;
@@ -165,7 +163,10 @@ void centre_in_disk(Eigen::VectorXcd& points, const std::vector<double>& weights
     }
 }
 
-Chart round_disk_chart(const Surface& source, const RoundDiskOptions& options) {
+namespace {
+
+/// @param dirichlet may be null
+Chart compute_chart(const Surface& source, const BeltramiSolver* dirichlet, const RoundDiskOptions& options) {
     const Topology& topology = source.topology;
     if (topology.components != 1 || topology.boundary_loops.size() != 1 || topology.genus != 0)
         throw Error(Cause::bad_mesh,
@@ -185,18 +186,25 @@ Chart round_disk_chart(const Surface& source, const RoundDiskOptions& options) {
         const auto [centre, radius] = boundary_circle(source, w);
         if (radius > 0) return make_chart(source, (w.array() - centre) / radius, true);
     } else {
-        const Flattening flat = flatten(source.mesh);
+        FlattenOptions flatten_options;
+        flatten_options.tolerance = kFlattenTolerance;
+        const Flattening flat = flatten(source.mesh, flatten_options);
         w = flat.positions;
-        factorizations += flat.iterations;
+        factorizations += flat.factorizations;
     }
 
     const auto& loop = topology.boundary_loops[0];
-    const HarmonicExtension harmonic(source);
+    std::optional<BeltramiSolver> own;
+    if (!dirichlet) {
+        dirichlet = &own.emplace(dirichlet_solver(source));
+        ++factorizations;
+    }
+    const HarmonicFunctions harmonic{source, *dirichlet};
     const Complex pole = w[deepest_vertex(source, harmonic, w)];
     Eigen::VectorXd real = Eigen::VectorXd::Zero(n);
     for (const int v : loop) real[v] = -std::log(std::abs(w[v] - pole));
     const Eigen::VectorXcd h = harmonic.with_conjugate(harmonic.extend(real));
-    factorizations += 2;
+    ++factorizations;
     Eigen::VectorXcd g(n);
     for (int v = 0; v < n; ++v) g[v] = (w[v] - pole) * std::exp(h[v]);
     for (const int v : loop) g[v] /= std::abs(g[v]);
@@ -205,6 +213,14 @@ Chart round_disk_chart(const Surface& source, const RoundDiskOptions& options) {
     Chart chart = make_chart(source, std::move(g), false);
     chart.factorizations = factorizations;
     return chart;
+}
+
+}  // namespace
+
+Chart round_disk_chart(const Surface& source, const RoundDiskOptions& options) { return compute_chart(source, nullptr, options); }
+
+Chart round_disk_chart(const Surface& source, const BeltramiSolver& dirichlet, const RoundDiskOptions& options) {
+    return compute_chart(source, &dirichlet, options);
 }
 
 }  // namespace beltrami

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <beltrami/conformal/chart.h>
+#include <beltrami/maps/beltrami_solver.h>
 
 namespace beltrami {
 
@@ -18,6 +19,10 @@ struct RoundDiskOptions {
 /// @pre one component, one boundary loop, genus 0
 /// @throw Error bad_mesh, not_solved
 Chart round_disk_chart(const Surface& source, const RoundDiskOptions& options = {});
+
+/// The same, where a solver that fixes exactly the boundary is already factorised for the coefficient 0: the harmonic
+/// extensions are solved with it.
+Chart round_disk_chart(const Surface& source, const BeltramiSolver& dirichlet, const RoundDiskOptions& options = {});
 
 /// Turns a disk's points by the Möbius map that brings their weighted mean to 0 (Douady & Earle's conformal barycentre,
 /// by fixed-point iteration).

@@ -12,6 +12,8 @@ class PolynomialSpace final : public DifferentialSpace {
     /// @param largest_degree refined() stops there
     PolynomialSpace(int degree, int largest_degree);
 
+    /// Largest degree that a mesh of so many samples resolves.
+    static int largest_degree(int sample_count);
     /// A space to start from and a largest degree for a mesh of so many samples.
     static std::unique_ptr<DifferentialSpace> for_samples(int sample_count);
 

@@ -17,7 +17,7 @@ constexpr Complex kI(0, 1);
 
 constexpr int kMostUnknowns = 8;  // of one sample: a quad with four free corners
 
-/// Conjugate gradients with an old factor: accuracy, and how many steps are cheaper than a new factorisation.
+/// Conjugate gradients with an old factor: best accuracy, and how many steps are cheaper than a new factorisation.
 constexpr double kNearTolerance = 1e-11;
 constexpr int kMostNearSteps = 7;
 
@@ -214,7 +214,8 @@ Eigen::VectorXcd BeltramiSolver::solve(const Eigen::VectorXcd& start) const {
 }
 
 Eigen::VectorXcd BeltramiSolver::solve_near(const Eigen::VectorXcd& nu, const Eigen::VectorXcd& start,
-                                            const Eigen::VectorXcd& guess) {
+                                            const Eigen::VectorXcd& guess,
+                                            double tolerance) {
     Implementation& m = *implementation_;
     if (!m.decoupled || m.solver->factorization_count() == 0) {
         factorize(nu, m.directions);
@@ -229,7 +230,7 @@ Eigen::VectorXcd BeltramiSolver::solve_near(const Eigen::VectorXcd& nu, const Ei
         y(u, 0) = guess[m.owner[u]].real();
         y(u, 1) = guess[m.owner[u]].imag();
     }
-    if (m.solver->solve_near(rhs, y, kNearTolerance, kMostNearSteps)) return m.unpack(y, base);
+    if (m.solver->solve_near(rhs, y, std::max(tolerance, kNearTolerance), kMostNearSteps)) return m.unpack(y, base);
     m.factorize();
     return m.unpack(m.solver->solve(rhs), base);
 }

@@ -33,9 +33,11 @@ class BeltramiSolver {
     Eigen::VectorXcd solve(const Eigen::VectorXcd& start) const;
 
     /// The map for a coefficient near that of the last factorize(): by conjugate gradients with the old factor where that takes
-    /// few steps, else with a new one. To about 1e-11 the same as factorize() and solve().
-    /// @param guess a map to start from, e.g. that of the old coefficient
-    Eigen::VectorXcd solve_near(const Eigen::VectorXcd& nu, const Eigen::VectorXcd& start, const Eigen::VectorXcd& guess);
+    /// few steps, else with a new one.
+    /// @param guess     a map to start from, e.g. that of the old coefficient
+    /// @param tolerance of the error, relative to the map, in the energy norm; at least 1e-11
+    Eigen::VectorXcd solve_near(const Eigen::VectorXcd& nu, const Eigen::VectorXcd& start, const Eigen::VectorXcd& guess,
+                                double tolerance = 1e-11);
 
     /// D^H W D f with D = ∂̄ − ν∂ of the last factorize: the force on each vertex (#V), for curvature terms.
     Eigen::VectorXcd gradient(const Eigen::VectorXcd& f) const;

@@ -3,7 +3,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+
+#include <beltrami/differentials/chart_grid.h>
 
 namespace beltrami {
 
@@ -12,6 +13,9 @@ namespace {
 /// |φ| is floored at this part of its maximum, where its direction means nothing.
 constexpr double kFloor = 1e-12;
 constexpr double kGradientTolerance = 1e-12;
+
+/// |φ|, without the care that std::abs takes of overflow.
+Eigen::VectorXd sizes_of(const Eigen::VectorXcd& phi) { return phi.cwiseAbs2().cwiseSqrt(); }
 
 /// Real view of the coefficients: (Re c, Im c), or Re c alone.
 struct RealView {
@@ -43,7 +47,7 @@ struct RealView {
 
 Eigen::VectorXcd dual_gradient(const Eigen::MatrixXcd& basis, const Eigen::VectorXd& weights,
                                const Eigen::VectorXcd& phi) {
-    Eigen::VectorXd sizes = phi.cwiseAbs();
+    Eigen::VectorXd sizes = sizes_of(phi);
     sizes = sizes.cwiseMax(kFloor * sizes.maxCoeff());
     return basis.transpose() * weights.cwiseQuotient(sizes).cast<Complex>().cwiseProduct(phi.conjugate());
 }
@@ -73,14 +77,14 @@ DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& star
     const Eigen::VectorXd q =
         problem.correction.size() ? view.covector(problem.correction) : Eigen::VectorXd::Zero(x.size());
     const auto norm_of = [&](const Eigen::VectorXcd& phi, const Eigen::VectorXd& at) {
-        return problem.weights.dot(phi.cwiseAbs()) + q.dot(at);
+        return problem.weights.dot(sizes_of(phi)) + q.dot(at);
     };
     Eigen::VectorXcd phi = problem.basis * view.unpack(x);
     double norm = norm_of(phi, x);
     Eigen::MatrixXd rows(points, x.size());
     Eigen::VectorXd sizes(points);
     for (; solution.newton_steps < max_newton_steps; ++solution.newton_steps) {
-        sizes = phi.cwiseAbs();
+        sizes = sizes_of(phi);
         sizes = sizes.cwiseMax(kFloor * sizes.maxCoeff());
         const Eigen::VectorXcd u = phi.conjugate().cwiseQuotient(sizes.cast<Complex>());
         const Eigen::VectorXd gradient = view.covector(dual_gradient(problem.basis, problem.weights, phi)) + q;
@@ -136,7 +140,6 @@ DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& star
 SampleClusters cluster_samples(const Operators& operators, const Chart& chart, double phase, int target_count) {
     const int samples = operators.sample_count();
     SampleClusters result;
-    result.cluster.assign(samples, -1);
     result.squared.assign(samples, 0.0);
     double total = 0;
     int included = 0;
@@ -146,34 +149,21 @@ SampleClusters cluster_samples(const Operators& operators, const Chart& chart, d
         total += result.squared[s];
         ++included;
     }
-    std::vector<int> order;
-    order.reserve(included);
-    for (int s = 0; s < samples; ++s)
-        if (!chart.excluded[s]) order.push_back(s);
     int clusters = 0;
     if (included <= target_count) {
-        for (const int s : order) result.cluster[s] = clusters++;
+        result.cluster.assign(samples, -1);
+        for (int s = 0; s < samples; ++s)
+            if (!chart.excluded[s]) result.cluster[s] = clusters++;
     } else {
-        // Square cells; the offset keeps the lines off points of regular meshes.
-        const double cell = std::sqrt(total / target_count);
-        const Complex turn = std::polar(1.0, -phase);
-        std::vector<std::pair<int, int>> key(samples);
-        for (const int s : order) {
-            const Complex z = turn * chart.positions[s] / cell;
-            key[s] = {static_cast<int>(std::floor(z.real() + 0.38196601)),
-                      static_cast<int>(std::floor(z.imag() + 0.61803399))};
-        }
-        std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return key[a] < key[b]; });
-        for (std::size_t i = 0; i < order.size(); ++i) {
-            if (i > 0 && key[order[i]] != key[order[i - 1]]) ++clusters;
-            result.cluster[order[i]] = clusters;
-        }
-        ++clusters;
+        ChartGrid grid = chart_grid(chart, phase, std::sqrt(total / target_count));
+        clusters = grid.cell_count();
+        result.cluster = std::move(grid.cell);
     }
     result.points.positions = Eigen::VectorXcd::Zero(clusters);
     result.points.derivatives = Eigen::VectorXcd::Ones(clusters);
     Eigen::VectorXd mass = Eigen::VectorXd::Zero(clusters);
-    for (const int s : order) {
+    for (int s = 0; s < samples; ++s) {
+        if (chart.excluded[s]) continue;
         result.points.positions[result.cluster[s]] += result.squared[s] * chart.positions[s];
         mass[result.cluster[s]] += result.squared[s];
     }

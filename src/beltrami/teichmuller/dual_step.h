@@ -42,7 +42,7 @@ double dilatation_of_pairing(double S);
 struct SampleClusters {
     std::vector<int> cluster;    ///< #S cluster of the sample, −1 for an excluded one
     ChartPoints points;          ///< #Q centroids (weighted by area in the domain), derivatives 1
-    std::vector<double> squared; ///< #S A |derivative|²: area in the domain
+    std::vector<double> squared; ///< #S A |derivative|²: area in the domain; 0 for an excluded one
 };
 
 /// @param phase rotation of the grid, to be tied to the data so that turning the source changes nothing

@@ -15,7 +15,7 @@ struct ExtremalOptions {
     int max_iterations = 60;      ///< linear solves
     double growth = 1e-5;         ///< the space of differentials grows while that raises k by more than this part
     int anderson_window = 5;      ///< 0: plain iteration
-    int cluster_count = 4000;     ///< quadrature points of the c-step on large meshes, at least 100
+    int cluster_count = 1500;     ///< quadrature points of the c-step on large meshes, at least 100
     /// Called once per iteration with its number and k; returning false cancels (Error cancelled).
     std::function<bool(int iteration, double k)> progress;
 

@@ -159,6 +159,25 @@ TEST(Triangulate, AnglesReachTheBoundAndSizesFollowTheField) {
     EXPECT_NEAR(sum, 1.0, 0.15);
 }
 
+TEST(Triangulate, SidesOfASharpCornerAreSplitAtEqualDistances) {
+    for (const double angle : {30.0, 10.0, 3.0}) {
+        SCOPED_TRACE(angle);
+        PlanarDomain wedge;
+        const Eigen::Vector2d direction(std::cos(angle * degree), std::sin(angle * degree));
+        // Sides that split in halves would never meet: 1 and 0.7.
+        wedge.points = {{0, 0}, {1, 0}, {1, 1}, {0.7 * direction.x(), 0.7 * direction.y()}};
+        wedge.segments = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
+        wedge.curves = {0, 1, 2, 3};
+        const Mesh mesh = triangulate(wedge);
+        EXPECT_TRUE(require_sound(mesh).empty());
+        EXPECT_LT(mesh.face_count(), 150);
+        const Topology topo = topology(mesh);
+        const std::vector<int>& loop = topo.boundary_loops[0];
+        EXPECT_NEAR(mesh.point(loop[1]).norm(), mesh.point(loop.back()).norm(), 1e-12);
+        EXPECT_EQ(std::log2(mesh.point(loop[1]).x()), std::round(std::log2(mesh.point(loop[1]).x())));
+    }
+}
+
 TEST(Triangulate, TheSameTwice) {
     TriangulateOptions options;
     options.size = [](const Eigen::Vector2d&) { return 0.05; };

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <beltrami/differentials/chart_grid.h>
+#include <beltrami/differentials/differential_space.h>
+
+namespace beltrami {
+
+/// A space of differentials on the samples of a mesh: values of a combination at every sample, and pairings of every basis
+/// function with weights at the samples.
+///
+/// On small meshes the values of all functions at all samples are kept. On large ones functions are evaluated at four nodes
+/// per cell of a grid over the canonical domain only: inside a cell a holomorphic function is its cubic interpolant through
+/// four points of a circle. That costs a few operations a sample instead of a few per function and sample.
+class SampledSpace {
+  public:
+    /// @param chart kept by reference
+    /// @param phase rotation of the grid, tied to the data so that turning the source changes nothing
+    SampledSpace(const Chart& chart, double phase);
+
+    /// Makes another space the current one; kept by reference until the next call.
+    void set(const DifferentialSpace& space);
+    const DifferentialSpace& space() const { return *space_; }
+
+    /// Pulled-back values at every sample (#S); 0 where the chart excludes the sample.
+    Eigen::VectorXcd combination(const Eigen::VectorXcd& coefficients) const;
+
+    /// Σ_s weights(s, column) φ_j(s) for every function j: size() × #columns. Excluded samples take no part.
+    Eigen::MatrixXcd pair(const Eigen::MatrixXcd& weights) const;
+
+  private:
+    bool interpolates() const { return grid_.cell_count() > 0; }
+
+    const Chart& chart_;
+    const DifferentialSpace* space_ = nullptr;
+    ChartGrid grid_{{}, {0}, {}};     ///< no cells: every value is kept
+    Eigen::VectorXcd centres_;        ///< #cells
+    double node_radius_ = 0;
+    Eigen::MatrixXcd values_;         ///< #S × m; or 4 #cells × m in the canonical domain
+};
+
+}  // namespace beltrami

@@ -1,0 +1,91 @@
+#include <beltrami/teichmuller/coarse_start.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <beltrami/conformal/round_disk.h>
+#include <beltrami/differentials/polynomial_space.h>
+#include <beltrami/generate/round_domains.h>
+
+namespace beltrami {
+
+namespace {
+
+constexpr double kTwoPi = 2 * std::numbers::pi;
+/// Below so many samples the coarse problem would cost as much as it saves.
+constexpr int kWorthFrom = 6'000;
+/// Triangles of the coarse mesh: a part of the samples, within limits.
+constexpr int kCoarsePart = 7, kFewestTriangles = 1'200, kMostTriangles = 5'000;
+/// The coarse problem is off by its own mesh; solving it further is of no use.
+constexpr double kCoarseTolerance = 1e-4;
+
+/// The prescribed values along the canonical circle.
+struct CircleValues {
+    std::vector<double> angle;  ///< increasing, from 0 to below 2π, relative to the first
+    std::vector<Complex> image;
+    Complex first;
+
+    Complex at(double turn) const {
+        const auto next = std::upper_bound(angle.begin(), angle.end(), turn);
+        const std::size_t i = static_cast<std::size_t>(next - angle.begin()) - 1, j = (i + 1) % angle.size();
+        const double end = j == 0 ? kTwoPi : angle[j];
+        return image[i] + (turn - angle[i]) / (end - angle[i]) * (image[j] - image[i]);
+    }
+};
+
+/// @return empty if the loop does not run monotonically
+CircleValues circle_values(const Surface& source, const BoundaryCondition& boundary, const Chart& chart) {
+    const auto& loop = source.topology.boundary_loops[0];
+    const Eigen::VectorXcd images = prescribed_values(boundary, source);
+    CircleValues values;
+    values.first = chart.vertices[loop[0]] / std::abs(chart.vertices[loop[0]]);
+    double angle = 0;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        values.angle.push_back(angle);
+        values.image.push_back(images[loop[i]]);
+        const double step = std::arg(chart.vertices[loop[(i + 1) % loop.size()]] / chart.vertices[loop[i]]);
+        if (!(step > 0)) return {};
+        angle += step;
+    }
+    if (std::abs(angle - kTwoPi) > 1e-6) return {};
+    return values;
+}
+
+}  // namespace
+
+HamiltonState coarse_start(const Surface& source, const BoundaryCondition& boundary, const Chart& chart, double phase,
+                           const ExtremalOptions& options) {
+    if (source.operators.sample_count() < kWorthFrom) return {};
+    const CircleValues values = circle_values(source, boundary, chart);
+    if (values.angle.empty()) return {};
+
+    Mesh mesh = disk(disk_rings_for_triangles(std::clamp(source.operators.sample_count() / kCoarsePart, kFewestTriangles, kMostTriangles)));
+    for (int v = 0; v < mesh.vertex_count(); ++v) {
+        const Complex z = std::polar(1.0, phase) * Complex(mesh.positions(v, 0), mesh.positions(v, 1));
+        mesh.positions.row(v) << z.real(), z.imag();
+    }
+    const Surface model(std::move(mesh));
+    BoundaryCondition coarse;
+    for (const int v : model.topology.boundary_loops[0]) {
+        const Complex z(model.mesh.positions(v, 0), model.mesh.positions(v, 1));
+        double turn = std::arg(z / values.first);
+        if (turn < 0) turn += kTwoPi;
+        coarse.pin(v, values.at(turn));
+    }
+    const Chart model_chart = round_disk_chart(model);
+    ExtremalOptions coarse_options = options;
+    coarse_options.tolerance = std::max(options.tolerance, kCoarseTolerance);
+    coarse_options.progress = {};
+    BeltramiSolver solver(model, freedoms(coarse, model), 1);
+    const Eigen::VectorXcd prescribed = prescribed_values(coarse, model);
+    solver.factorize(Eigen::VectorXcd::Zero(model.operators.sample_count()));
+    CoefficientStep coefficient_step(model, model_chart, phase, options.cluster_count);
+    HamiltonIteration iteration(model, solver, prescribed, coefficient_step, coarse_options);
+    HamiltonState state;
+    iteration.run(state, solver.solve(prescribed), PolynomialSpace::for_samples(model.operators.sample_count()));
+    state.space = std::make_unique<PolynomialSpace>(state.space->size() - 1, PolynomialSpace::largest_degree(source.operators.sample_count()));
+    return state;
+}
+
+}  // namespace beltrami

@@ -1,0 +1,130 @@
+#include <beltrami/teichmuller/hamilton.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <beltrami/linear/anderson.h>
+#include <beltrami/mesh/error.h>
+
+namespace beltrami {
+
+namespace {
+
+/// k of the f-step stays below this.
+constexpr double kLargest = 0.9999;
+/// The f-step is solved to this part of the change that the c-step will see.
+constexpr double kSolveBelowChange = 1e-3;
+constexpr double kTryToGrowBelow = 0.03;
+
+/// ν = k conj(φ)/|φ|, 0 where φ says nothing.
+Eigen::VectorXcd teichmueller_coefficient(double k, const Eigen::VectorXcd& phi) {
+    Eigen::VectorXcd nu(phi.size());
+    for (Eigen::Index s = 0; s < phi.size(); ++s) {
+        const double size = std::sqrt(std::norm(phi[s]));
+        nu[s] = size > 0 ? k * std::conj(phi[s]) / size : 0.0;
+    }
+    return nu;
+}
+
+/// (direction of φ, k) as one real vector for the accelerated fixed-point iteration.
+Eigen::VectorXd pack(const Eigen::VectorXcd& direction, double k) {
+    Eigen::VectorXd x(2 * direction.size() + 1);
+    x << direction.real(), direction.imag(), k;
+    return x;
+}
+
+}  // namespace
+
+HamiltonIteration::HamiltonIteration(const Surface& source, BeltramiSolver& solver, const Eigen::VectorXcd& prescribed,
+                                     CoefficientStep& coefficient_step, const ExtremalOptions& options)
+    : source_(source), solver_(solver), prescribed_(prescribed), coefficient_step_(coefficient_step), options_(options) {}
+
+/// Takes larger spaces while they raise k noticeably; returns whether any did.
+bool HamiltonIteration::grow(HamiltonState& state, const Eigen::VectorXcd& mu) {
+    bool grown = false;
+    while (auto larger = state.space->refined()) {
+        coefficient_step_.set_space(*larger);
+        CoefficientStep::Result more = coefficient_step_.solve(mu, step_.direction);
+        if (!(more.k > step_.k * (1 + options_.growth))) {
+            coefficient_step_.set_space(*state.space);
+            break;
+        }
+        state.space = std::move(larger);
+        step_ = std::move(more);
+        grown = true;
+    }
+    return grown;
+}
+
+void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start, std::unique_ptr<DifferentialSpace> smallest) {
+    map_ = start;
+    bool near_last_factor = false;
+    if (!state.space) {
+        state.space = std::move(smallest);
+        coefficient_step_.set_space(*state.space);
+        const Eigen::VectorXcd mu = beltrami_coefficient(source_.operators, map_);
+        step_ = coefficient_step_.solve(mu, {});
+        grow(state, mu);
+        state.direction = step_.direction;
+        state.k = step_.k;
+    } else {
+        coefficient_step_.set_space(*state.space);
+    }
+    history_.push_back({state.k, 1.0, state.space->size()});
+
+    AndersonAcceleration anderson(options_.anderson_window);
+    double change = 1;
+    bool tried_to_grow = false;
+    while (iterations_ < options_.max_iterations) {
+        const Eigen::VectorXcd phi = coefficient_step_.values(state.direction), nu = teichmueller_coefficient(state.k, phi);
+        if (near_last_factor) {
+            map_ = solver_.solve_near(nu, prescribed_, map_, kSolveBelowChange * std::min(change, 0.1));
+        } else {
+            solver_.factorize(nu);
+            map_ = solver_.solve(prescribed_);
+            near_last_factor = true;
+        }
+        ++iterations_;
+        const Eigen::VectorXcd mu = beltrami_coefficient(source_.operators, map_);
+        step_ = coefficient_step_.solve(mu, state.direction, phi);
+        change = (step_.direction - state.direction).norm();
+        const double k_change = std::abs(step_.k - state.k);
+        history_.push_back({step_.k, change, state.space->size()});
+        if (options_.progress && !options_.progress(iterations_, step_.k))
+            throw Error(Cause::cancelled, "cancelled after iteration " + std::to_string(iterations_));
+
+        // Where k vanishes the direction of φ means nothing.
+        const bool settled = k_change < options_.tolerance && (change < options_.tolerance || step_.k < options_.tolerance);
+        // Growing is tried once for each space as soon as φ is roughly known, and again in the end.
+        if (settled || (!tried_to_grow && change < kTryToGrowBelow)) {
+            tried_to_grow = true;
+            if (grow(state, mu)) {
+                tried_to_grow = false;
+                anderson.reset();
+                change = 1;
+                state.direction = step_.direction;
+                state.k = std::min(step_.k, kLargest);
+                continue;
+            }
+        }
+        if (settled) {
+            converged_ = true;
+            break;
+        }
+        if (options_.anderson_window > 0) {
+            const Eigen::VectorXd next = anderson.next(pack(state.direction, state.k), pack(step_.direction, step_.k));
+            const Eigen::Index m = state.direction.size();
+            state.direction.real() = next.head(m);
+            state.direction.imag() = next.segment(m, m);
+            state.direction.normalize();
+            state.k = std::clamp(next[2 * m], 0.0, kLargest);
+        } else {
+            state.direction = step_.direction;
+            state.k = std::min(step_.k, kLargest);
+        }
+    }
+    state.direction = step_.direction;
+    state.k = step_.k;
+}
+
+}  // namespace beltrami
