@@ -3,8 +3,8 @@
 //     bench_extremal [TRIANGLES...]        default: 10000 100000 1000000
 //
 // Every measurement runs in a process of its own, so that peak memory is its own. Times are those of the JSON record:
-// harmonic = operators, ordering, analysis, assembly, factorisation and solution, median of three; extremal = everything
-// between the loaded mesh and the result: diagnosis, topology, flattening, iteration, distortion and bounds.
+// harmonic = operators, ordering, analysis, assembly, factorisation and solution, median of three; extremal =
+// everything between the loaded mesh and the result: diagnosis, topology, flattening, iteration, distortion and bounds.
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -26,7 +26,9 @@ namespace {
 
 using namespace beltrami;
 
-double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+double now() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 /// The cases: a planar disk sent to three lobes, and a bump in space whose boundary runs unevenly around the disk.
 Mesh mesh_of(const std::string& name, int triangles) {
@@ -37,7 +39,8 @@ Mesh mesh_of(const std::string& name, int triangles) {
     bump.positions.resize(mesh.vertex_count(), 3);
     for (int v = 0; v < mesh.vertex_count(); ++v) {
         const double x = mesh.positions(v, 0), y = mesh.positions(v, 1);
-        bump.positions.row(v) << x, y, 0.6 * std::exp(-4 * ((x - 0.2) * (x - 0.2) + y * y)) + 0.1 * std::sin(5 * x + 3 * y);
+        bump.positions.row(v) << x, y,
+            0.6 * std::exp(-4 * ((x - 0.2) * (x - 0.2) + y * y)) + 0.1 * std::sin(5 * x + 3 * y);
     }
     return bump;
 }
@@ -87,9 +90,11 @@ int main(int argc, char** argv) {
     std::vector<int> sizes;
     for (int i = 1; i < argc; ++i) sizes.push_back(std::stoi(argv[i]));
     if (sizes.empty()) sizes = {10'000, 100'000, 1'000'000};
-    fmt::print("{}\n\n| case | triangles | harmonic s | extremal s | ratio | iterations | factorisations | k | flips | harmonic MiB | extremal MiB | ratio |\n"
-               "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n",
-               linear_backend());
+    fmt::print(
+        "{}\n\n| case | triangles | harmonic s | extremal s | ratio | iterations | factorisations | k | flips | "
+        "harmonic MiB | extremal MiB | ratio |\n"
+        "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n",
+        linear_backend());
     for (const std::string name : {"lobes", "bump"})
         for (const int size : sizes) {
             const Measurement harmonic = in_child([&] {
@@ -112,9 +117,10 @@ int main(int argc, char** argv) {
                 m.factorizations = result.factorizations;
                 return m;
             });
-            fmt::print("| {} | {} | {:.3f} | {:.3f} | {:.1f} | {} | {} | {:.5f} | {} | {} | {} | {:.2f} |\n", name, extremal.faces, harmonic.seconds,
-                       extremal.seconds, extremal.seconds / harmonic.seconds, extremal.iterations, extremal.factorizations, extremal.k,
-                       extremal.flipped, harmonic.peak_kib / 1024, extremal.peak_kib / 1024,
+            fmt::print("| {} | {} | {:.3f} | {:.3f} | {:.1f} | {} | {} | {:.5f} | {} | {} | {} | {:.2f} |\n", name,
+                       extremal.faces, harmonic.seconds, extremal.seconds, extremal.seconds / harmonic.seconds,
+                       extremal.iterations, extremal.factorizations, extremal.k, extremal.flipped,
+                       harmonic.peak_kib / 1024, extremal.peak_kib / 1024,
                        static_cast<double>(extremal.peak_kib) / static_cast<double>(harmonic.peak_kib));
             std::fflush(stdout);
         }

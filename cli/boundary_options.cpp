@@ -31,26 +31,36 @@ std::optional<std::vector<double>> numbers(std::string_view text, std::size_t co
 
 void BoundaryOptions::add_to(CLI::App& app) {
     app.add_option("--boundary", spec_,
-                   "where the outer boundary goes, counter-clockwise: disk or disk:A (angle t + A sin t, t = 2π · arc length / total), "
+                   "where the outer boundary goes, counter-clockwise: disk or disk:A (angle t + A sin t, t = 2π · arc "
+                   "length / total), "
                    "rectangle:W,H, polygon:FILE (a line `x y` per point)")
         ->type_name("SPEC");
-    app.add_option("--corners", corners_, "four boundary vertices, counter-clockwise, that go to the rectangle's corners (0,0), (W,0), (W,H), (0,H)")
+    app.add_option(
+           "--corners", corners_,
+           "four boundary vertices, counter-clockwise, that go to the rectangle's corners (0,0), (W,0), (W,H), (0,H)")
         ->delimiter(',')
         ->expected(4)
         ->type_name("a,b,c,d");
-    app.add_option("--start", start_, "the boundary vertex that goes to angle 0, the first corner or the polygon's first point; default: the smallest")
+    app.add_option("--start", start_,
+                   "the boundary vertex that goes to angle 0, the first corner or the polygon's first point; default: "
+                   "the smallest")
         ->type_name("V");
-    app.add_option("--speed", speed_, "how fast the boundary runs along its target")->check(CLI::IsMember({"arclength", "conformal"}))->capture_default_str();
-    app.add_option("--pin", pin_file_, "prescribed vertices: a line `vertex x y` each, vertices counted from 0 in file order, # comments")
+    app.add_option("--speed", speed_, "how fast the boundary runs along its target")
+        ->check(CLI::IsMember({"arclength", "conformal"}))
+        ->capture_default_str();
+    app.add_option("--pin", pin_file_,
+                   "prescribed vertices: a line `vertex x y` each, vertices counted from 0 in file order, # comments")
         ->type_name("FILE");
 }
 
 BoundaryCondition BoundaryOptions::outer_loop(const Surface& source) const {
-    const BoundaryPlacement placement{start_, speed_ == "conformal" ? BoundarySpeed::conformal : BoundarySpeed::arclength};
+    const BoundaryPlacement placement{start_,
+                                      speed_ == "conformal" ? BoundarySpeed::conformal : BoundarySpeed::arclength};
     const std::size_t colon = spec_.find(':');
     const std::string kind = spec_.substr(0, colon), rest = colon == std::string::npos ? "" : spec_.substr(colon + 1);
     const bool rectangle = kind == "rectangle";
-    if (!corners_.empty() && !rectangle) throw Error(Cause::bad_option, "--corners belongs to --boundary rectangle:W,H");
+    if (!corners_.empty() && !rectangle)
+        throw Error(Cause::bad_option, "--corners belongs to --boundary rectangle:W,H");
     if (kind == "disk") {
         if (colon == std::string::npos) return boundary_to_disk(source, 0.0, placement);
         if (const auto amplitude = numbers(rest, 1)) return boundary_to_disk(source, (*amplitude)[0], placement);
@@ -59,7 +69,8 @@ BoundaryCondition BoundaryOptions::outer_loop(const Surface& source) const {
     if (rectangle) {
         std::optional<std::array<int, 4>> corners;
         if (!corners_.empty()) corners = {corners_[0], corners_[1], corners_[2], corners_[3]};
-        if (const auto size = numbers(rest, 2)) return boundary_to_rectangle(source, (*size)[0], (*size)[1], corners, placement);
+        if (const auto size = numbers(rest, 2))
+            return boundary_to_rectangle(source, (*size)[0], (*size)[1], corners, placement);
         throw Error(Cause::bad_option, "--boundary " + spec_ + " is not rectangle:W,H with two numbers");
     }
     if (kind == "polygon" && !rest.empty()) {
@@ -67,7 +78,8 @@ BoundaryCondition BoundaryOptions::outer_loop(const Surface& source) const {
         for (const auto& row : read_rows(rest, 2, "a point of the polygon")) polygon.emplace_back(row[0], row[1]);
         return boundary_to_polygon(source, polygon, placement);
     }
-    throw Error(Cause::bad_option, "--boundary " + spec_ + " is not known", "give disk, disk:A, rectangle:W,H or polygon:FILE");
+    throw Error(Cause::bad_option, "--boundary " + spec_ + " is not known",
+                "give disk, disk:A, rectangle:W,H or polygon:FILE");
 }
 
 BoundaryCondition BoundaryOptions::read(const Surface& source) const {

@@ -23,13 +23,20 @@ const char* const kExitCodes =
 
 int exit_code(Cause cause) {
     switch (cause) {
-        case Cause::bad_option: return 2;
-        case Cause::unreadable: return 3;
-        case Cause::bad_mesh: return 4;
-        case Cause::bad_boundary: return 5;
-        case Cause::not_solved: return 6;
-        case Cause::unwritable: return 7;
-        case Cause::cancelled: return 130;
+        case Cause::bad_option:
+            return 2;
+        case Cause::unreadable:
+            return 3;
+        case Cause::bad_mesh:
+            return 4;
+        case Cause::bad_boundary:
+            return 5;
+        case Cause::not_solved:
+            return 6;
+        case Cause::unwritable:
+            return 7;
+        case Cause::cancelled:
+            return 130;
     }
     return 1;
 }
@@ -55,7 +62,8 @@ void add_findings(const std::vector<Finding>& findings, std::vector<std::string>
         warnings.push_back(finding.next_step.empty() ? finding.sentence : finding.sentence + ": " + finding.next_step);
 }
 
-void finish(const Record& record, const CommonOptions& common, const std::string& method, const std::vector<std::string>& files) {
+void finish(const Record& record, const CommonOptions& common, const std::string& method,
+            const std::vector<std::string>& files) {
     if (common.json == "-") {
         fmt::print("{}", to_json(record));
     } else if (!common.json.empty()) {

@@ -45,7 +45,8 @@ Mesh load(const std::string& path, std::vector<std::string>& warnings);
 void add_findings(const std::vector<Finding>& findings, std::vector<std::string>& warnings);
 
 /// Writes the record where the options want it; prints the table, the warnings and the names of the files otherwise.
-void finish(const Record& record, const CommonOptions& common, const std::string& method, const std::vector<std::string>& files);
+void finish(const Record& record, const CommonOptions& common, const std::string& method,
+            const std::vector<std::string>& files);
 
 /// Seconds since some fixed moment.
 double seconds();

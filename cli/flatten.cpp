@@ -12,8 +12,10 @@ namespace {
 class Flatten final : public Command {
   public:
     explicit Flatten(CLI::App& parent) {
-        CLI::App* app = parent.add_subcommand("flatten", "conformal map of a disk-like surface to the plane, by conformal equivalence");
-        app->add_option("SOURCE", source_, "OBJ, PLY, OFF or STL; a disk: one component, one boundary loop, genus 0")->required();
+        CLI::App* app = parent.add_subcommand(
+            "flatten", "conformal map of a disk-like surface to the plane, by conformal equivalence");
+        app->add_option("SOURCE", source_, "OBJ, PLY, OFF or STL; a disk: one component, one boundary loop, genus 0")
+            ->required();
         output_.add_to(*app);
         app->add_flag("--disk", disk_, "go on to the round unit disk");
         common_.add_to(*app);
@@ -41,8 +43,10 @@ class Flatten final : public Command {
             solve.iterations = flat.iterations;
             solve.factorizations = flat.factorizations;
             if (!flat.flipped.empty())
-                record.warnings.push_back(std::to_string(flat.flipped.size()) + " faces come out turned over: their edges were flipped on the way; the first is face " +
-                                          std::to_string(flat.flipped[0]));
+                record.warnings.push_back(
+                    std::to_string(flat.flipped.size()) +
+                    " faces come out turned over: their edges were flipped on the way; the first is face " +
+                    std::to_string(flat.flipped[0]));
         }
         solve.termination = to_string(Termination::converged);
         solve.seconds_total = seconds() - start;
@@ -64,6 +68,8 @@ class Flatten final : public Command {
 
 }  // namespace
 
-std::unique_ptr<Command> make_flatten(CLI::App& parent) { return std::make_unique<Flatten>(parent); }
+std::unique_ptr<Command> make_flatten(CLI::App& parent) {
+    return std::make_unique<Flatten>(parent);
+}
 
 }  // namespace beltrami::cli

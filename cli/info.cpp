@@ -19,7 +19,8 @@ class Info final : public Command {
     }
 
     int run() override {
-        if (!common_.report.empty()) throw Error(Cause::bad_option, "info has no map to report on", "use map or measure with --report");
+        if (!common_.report.empty())
+            throw Error(Cause::bad_option, "info has no map to report on", "use map or measure with --report");
         Record record;
         record.command = "info";
         const Mesh mesh = load(mesh_, record.warnings);
@@ -38,14 +39,16 @@ class Info final : public Command {
         int quads = 0;
         for (int f = 0; f < mesh.face_count(); ++f) quads += mesh.faces.degree(f) == 4;
         fmt::print("{}\n  {} vertices, {} faces ({} triangles, {} quads){}{}\n", mesh_, source.vertices, source.faces,
-                   source.faces - quads, quads, is_planar(mesh) ? ", planar" : "", mesh.texture ? ", with texture coordinates" : "");
+                   source.faces - quads, quads, is_planar(mesh) ? ", planar" : "",
+                   mesh.texture ? ", with texture coordinates" : "");
         if (!source.shape) return;
         fmt::print("  {} component(s), genus {}, {} boundary loop(s)\n", source.shape->components, source.shape->genus,
                    source.shape->boundary_loops.size());
         for (std::size_t l = 0; l < source.shape->boundary_loops.size(); ++l)
             fmt::print("  loop {}: length {:.6g}\n", l, source.shape->boundary_loops[l]);
         const MeshQuality q = quality(mesh);
-        fmt::print("  smallest angle {:.2f} degrees, edges from {:.4g} to {:.4g}\n", q.min_angle * 180 / 3.14159265358979324, q.min_edge, q.max_edge);
+        fmt::print("  smallest angle {:.2f} degrees, edges from {:.4g} to {:.4g}\n",
+                   q.min_angle * 180 / 3.14159265358979324, q.min_edge, q.max_edge);
     }
 
     std::string mesh_;
@@ -54,6 +57,8 @@ class Info final : public Command {
 
 }  // namespace
 
-std::unique_ptr<Command> make_info(CLI::App& parent) { return std::make_unique<Info>(parent); }
+std::unique_ptr<Command> make_info(CLI::App& parent) {
+    return std::make_unique<Info>(parent);
+}
 
 }  // namespace beltrami::cli

@@ -56,7 +56,8 @@ std::string suggestion(const CLI::App& app) {
         for (const CLI::App* sub : app.get_subcommands({})) known.insert(sub->get_name());
     for (std::string word : app.remaining(true)) {
         word = word.substr(0, word.find('='));
-        if (const std::string best = nearest(word, known); !best.empty()) return fmt::format("; did you mean {}?", best);
+        if (const std::string best = nearest(word, known); !best.empty())
+            return fmt::format("; did you mean {}?", best);
     }
     return {};
 }
@@ -68,7 +69,8 @@ int main(int argc, char** argv) {
     std::signal(SIGINT, interrupted);
     std::signal(SIGTERM, interrupted);
 
-    CLI::App app{"Extremal quasiconformal (Teichmüller) maps of meshes: maps that stretch least, with a certificate.", "beltrami"};
+    CLI::App app{"Extremal quasiconformal (Teichmüller) maps of meshes: maps that stretch least, with a certificate.",
+                 "beltrami"};
     app.set_version_flag("--version", fmt::format("beltrami {} ({})", BELTRAMI_VERSION, linear_backend()));
     app.require_subcommand(1);
     app.footer(std::string("Examples:\n"

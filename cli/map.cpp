@@ -27,16 +27,24 @@ const std::map<std::string, Baseline>& baselines() {
 class Map final : public Command {
   public:
     explicit Map(CLI::App& parent) {
-        CLI::App* app = parent.add_subcommand("map", "map a surface to the plane; by default the map of least dilatation");
-        app->add_option("SOURCE", source_, "OBJ, PLY, OFF or STL; a disk: one component, one boundary loop, genus 0")->required();
+        CLI::App* app =
+            parent.add_subcommand("map", "map a surface to the plane; by default the map of least dilatation");
+        app->add_option("SOURCE", source_, "OBJ, PLY, OFF or STL; a disk: one component, one boundary loop, genus 0")
+            ->required();
         output_.add_to(*app);
-        app->add_option("--method", method_, "extremal needs every boundary vertex prescribed; lscm, arap and mips can leave the boundary free")
+        app->add_option(
+               "--method", method_,
+               "extremal needs every boundary vertex prescribed; lscm, arap and mips can leave the boundary free")
             ->check(CLI::IsMember({"extremal", "harmonic", "lscm", "arap", "mips"}))
             ->capture_default_str();
         boundary_.add_to(*app);
-        app->add_option("--metric", metric_, "the metric of the source: FILE with a line `i j length` per edge, or vt for the edge lengths of SOURCE's own vt")
+        app->add_option("--metric", metric_,
+                        "the metric of the source: FILE with a line `i j length` per edge, or vt for the edge lengths "
+                        "of SOURCE's own vt")
             ->type_name("FILE|vt");
-        app->add_option("--compare", compare_, "further methods to set beside the map, on the same boundary values (lscm on its own free boundary)")
+        app->add_option(
+               "--compare", compare_,
+               "further methods to set beside the map, on the same boundary values (lscm on its own free boundary)")
             ->delimiter(',')
             ->check(CLI::IsMember({"harmonic", "lscm", "arap", "mips"}))
             ->type_name("METHOD,...");
@@ -71,7 +79,8 @@ class Map final : public Command {
             record.warnings.insert(record.warnings.end(), result.warnings.begin(), result.warnings.end());
             history = std::move(result.history);
             maps.push_back({"extremal", positions_of(result.map), result.distortion.face_abs_mu});
-            maps.push_back({"harmonic", positions_of(result.harmonic), beltrami::distortion(source.operators, result.harmonic).face_abs_mu});
+            maps.push_back({"harmonic", positions_of(result.harmonic),
+                            beltrami::distortion(source.operators, result.harmonic).face_abs_mu});
             map = std::move(result.map);
             distortion = std::move(result.distortion);
         } else {
@@ -84,9 +93,11 @@ class Map final : public Command {
             Eigen::VectorXcd unused_map;
             Distortion unused;
             if (method_ == "extremal" && other == "harmonic") maps.pop_back();  // it comes again, with its record
-            record.comparison.push_back(run_baseline(source, other == "lscm" ? BoundaryCondition() : boundary, other, seconds(), maps, unused_map, unused, record.warnings));
+            record.comparison.push_back(run_baseline(source, other == "lscm" ? BoundaryCondition() : boundary, other,
+                                                     seconds(), maps, unused_map, unused, record.warnings));
         }
-        if (common_.wants_record() && unprescribed_boundary(boundary, source).empty() && !source.topology.boundary_loops.empty())
+        if (common_.wants_record() && unprescribed_boundary(boundary, source).empty() &&
+            !source.topology.boundary_loops.empty())
             record.solve->seconds_harmonic = harmonic_seconds(source, boundary);
 
         output_.write(source.mesh, map, distortion);
@@ -105,13 +116,16 @@ class Map final : public Command {
         }
         const IndexedRows rows = read_indexed_rows(metric_, 2, mesh.vertex_count(), 1, "an edge of the metric");
         std::vector<EdgeLength> lengths;
-        for (Eigen::Index i = 0; i < rows.indices.rows(); ++i) lengths.push_back({rows.indices(i, 0), rows.indices(i, 1), rows.values(i, 0)});
+        for (Eigen::Index i = 0; i < rows.indices.rows(); ++i)
+            lengths.push_back({rows.indices(i, 0), rows.indices(i, 1), rows.values(i, 0)});
         Operators operators = operators_from_lengths(mesh, lengths);
         return Surface(std::move(mesh), std::move(operators));
     }
 
-    static MethodRecord run_baseline(const Surface& source, const BoundaryCondition& boundary, const std::string& method, double start,
-                                     std::vector<PageMap>& maps, Eigen::VectorXcd& map, Distortion& distortion, std::vector<std::string>& warnings) {
+    static MethodRecord run_baseline(const Surface& source, const BoundaryCondition& boundary,
+                                     const std::string& method, double start, std::vector<PageMap>& maps,
+                                     Eigen::VectorXcd& map, Distortion& distortion,
+                                     std::vector<std::string>& warnings) {
         BaselineMap result = baselines().at(method)(source, boundary, {});
         MethodRecord record;
         record.method = method;
@@ -136,6 +150,8 @@ class Map final : public Command {
 
 }  // namespace
 
-std::unique_ptr<Command> make_map(CLI::App& parent) { return std::make_unique<Map>(parent); }
+std::unique_ptr<Command> make_map(CLI::App& parent) {
+    return std::make_unique<Map>(parent);
+}
 
 }  // namespace beltrami::cli

@@ -10,9 +10,11 @@ namespace {
 class Measure final : public Command {
   public:
     explicit Measure(CLI::App& parent) {
-        CLI::App* app = parent.add_subcommand("measure", "distortion of any map: to a second mesh, or to SOURCE's own texture coordinates");
+        CLI::App* app = parent.add_subcommand(
+            "measure", "distortion of any map: to a second mesh, or to SOURCE's own texture coordinates");
         app->add_option("SOURCE", source_, "OBJ, PLY, OFF or STL")->required();
-        app->add_option("IMAGE", image_, "a mesh with the same faces; without it, the vt of SOURCE (per corner, seams allowed)");
+        app->add_option("IMAGE", image_,
+                        "a mesh with the same faces; without it, the vt of SOURCE (per corner, seams allowed)");
         common_.add_to(*app);
         app->footer(kExitCodes);
     }
@@ -26,10 +28,13 @@ class Measure final : public Command {
         const Distortion d = image_.empty() ? to_texture(source) : to_mesh(source, record.warnings);
         record.map = map_record(d);
         if (!d.flipped.empty())
-            record.warnings.push_back(std::to_string(d.flipped.size()) + " faces are flipped, the first is face " + std::to_string(d.flipped[0]));
+            record.warnings.push_back(std::to_string(d.flipped.size()) + " faces are flipped, the first is face " +
+                                      std::to_string(d.flipped[0]));
         if (!d.degenerate.empty())
-            record.warnings.push_back(std::to_string(d.degenerate.size()) + " faces collapse, the first is face " + std::to_string(d.degenerate[0]));
-        write_page(common_.report, page_mesh_ ? *page_mesh_ : source.mesh, {{"measured", image_positions_, d.face_abs_mu}}, {}, record, source_);
+            record.warnings.push_back(std::to_string(d.degenerate.size()) + " faces collapse, the first is face " +
+                                      std::to_string(d.degenerate[0]));
+        write_page(common_.report, page_mesh_ ? *page_mesh_ : source.mesh,
+                   {{"measured", image_positions_, d.face_abs_mu}}, {}, record, source_);
         finish(record, common_, "measured", {common_.json, common_.report});
         return 0;
     }
@@ -64,7 +69,8 @@ class Measure final : public Command {
                         "write both from one program without reordering");
         if (!image.positions.allFinite()) throw Error(Cause::bad_mesh, "IMAGE has coordinates that are not finite");
         image_positions_ = is_planar(image) ? Positions(image.positions.leftCols(2)) : image.positions;
-        return distortion(source.operators, image_positions_, image_positions_.cols() > 2 ? vertex_normals(image) : Positions());
+        return distortion(source.operators, image_positions_,
+                          image_positions_.cols() > 2 ? vertex_normals(image) : Positions());
     }
 
     std::string source_, image_;
@@ -75,6 +81,8 @@ class Measure final : public Command {
 
 }  // namespace
 
-std::unique_ptr<Command> make_measure(CLI::App& parent) { return std::make_unique<Measure>(parent); }
+std::unique_ptr<Command> make_measure(CLI::App& parent) {
+    return std::make_unique<Measure>(parent);
+}
 
 }  // namespace beltrami::cli

@@ -7,7 +7,8 @@
 namespace beltrami::cli {
 
 void OutputOptions::add_to(CLI::App& app) {
-    app.add_option("-o,--output", path_, "OBJ (the map as vt), PLY (the map as u, v and per face mu_re, mu_im, abs_mu, K) or OFF")
+    app.add_option("-o,--output", path_,
+                   "OBJ (the map as vt), PLY (the map as u, v and per face mu_re, mu_im, abs_mu, K) or OFF")
         ->required()
         ->type_name("OUT");
     app.add_flag("--as-positions", as_positions_, "write the map as vertex positions (z = 0) instead of vt");
@@ -15,7 +16,10 @@ void OutputOptions::add_to(CLI::App& app) {
 
 void OutputOptions::write(const Mesh& source, const Eigen::VectorXcd& map, const Distortion& distortion) const {
     const Eigen::VectorXd K = distortion.face_abs_mu.unaryExpr([](double abs_mu) { return dilatation(abs_mu); });
-    const std::vector<Column> columns{{"mu_re", distortion.face_mu.real()}, {"mu_im", distortion.face_mu.imag()}, {"abs_mu", distortion.face_abs_mu}, {"K", K}};
+    const std::vector<Column> columns{{"mu_re", distortion.face_mu.real()},
+                                      {"mu_im", distortion.face_mu.imag()},
+                                      {"abs_mu", distortion.face_abs_mu},
+                                      {"K", K}};
     if (!as_positions_) {
         write_mesh(path_, {source, positions_of(map), columns});
         return;

@@ -11,8 +11,8 @@ Positions positions_of(const Eigen::VectorXcd& map) {
     return positions;
 }
 
-void write_page(const std::string& path, const Mesh& source, std::vector<PageMap> maps, const std::vector<Iteration>& history,
-                const Record& record, const std::string& title) {
+void write_page(const std::string& path, const Mesh& source, std::vector<PageMap> maps,
+                const std::vector<Iteration>& history, const Record& record, const std::string& title) {
     if (path.empty()) return;
     PageContent content{source, std::move(maps), {}, {}, to_json(record), title};
     for (const Iteration& iteration : history) {

@@ -9,7 +9,7 @@ namespace beltrami::cli {
 Positions positions_of(const Eigen::VectorXcd& map);
 
 /// Renders and writes the page, if one is wanted.
-void write_page(const std::string& path, const Mesh& source, std::vector<PageMap> maps, const std::vector<Iteration>& history,
-                const Record& record, const std::string& title);
+void write_page(const std::string& path, const Mesh& source, std::vector<PageMap> maps,
+                const std::vector<Iteration>& history, const Record& record, const std::string& title);
 
 }  // namespace beltrami::cli

@@ -9,6 +9,7 @@
 #include <beltrami/generate/round_domains.h>
 #include <beltrami/io/read_mesh.h>
 #include <beltrami/io/write_mesh.h>
+#include <beltrami/maps/composition.h>
 #include <beltrami/mesh/diagnosis.h>
 #include <beltrami/mesh/error.h>
 #include <beltrami/mesh/mesh.h>

@@ -21,7 +21,8 @@ struct Composition {
         const Mesh mesh = disk(disk_rings_for_triangles(triangles));
         const Surface surface(mesh);
         result = extremal_map(surface, test::boundary_values(surface, test::exact_composition));
-        const Eigen::VectorXcd exact = test::complex_positions(mesh).unaryExpr([](Complex z) { return test::exact_composition(z); });
+        const Eigen::VectorXcd exact =
+            test::complex_positions(mesh).unaryExpr([](Complex z) { return test::exact_composition(z); });
         vertex_error = (result.map - exact).cwiseAbs().maxCoeff();
         interpolated_deviation = distortion(surface.operators, exact).standard_deviation;
     }

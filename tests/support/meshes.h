@@ -9,8 +9,8 @@
 #include <beltrami/generate/grids.h>
 #include <beltrami/generate/round_domains.h>
 #include <beltrami/maps/boundary_condition.h>
-#include <beltrami/mesh/subdivide.h>
 #include <beltrami/mesh/mesh.h>
+#include <beltrami/mesh/subdivide.h>
 
 namespace beltrami::test {
 
@@ -28,7 +28,8 @@ inline Mesh square(int n, double amount, const std::function<bool(int, int)>& as
     for (int j = 0; j <= n; ++j)
         for (int i = 0; i <= n; ++i) {
             const bool inner = i > 0 && i < n && j > 0 && j < n;
-            const double dx = inner ? amount * std::sin(12.9898 * i + 78.233 * j) : 0, dy = inner ? amount * std::cos(39.425 * i - 17.31 * j) : 0;
+            const double dx = inner ? amount * std::sin(12.9898 * i + 78.233 * j) : 0,
+                         dy = inner ? amount * std::cos(39.425 * i - 17.31 * j) : 0;
             mesh.positions.row(j * (n + 1) + i) << (i + dx) / n, (j + dy) / n;
         }
     for (int j = 0; j < n; ++j)
@@ -64,7 +65,8 @@ inline Mesh quad_disk(int rings) {
     mesh.positions.topRows(middles) = fine.mesh.positions;
     for (int v = corners; v < middles; ++v) {
         const auto& parents = fine.parents[v - corners];
-        if (triangles.positions.row(parents[0]).norm() > 1 - 1e-9 && triangles.positions.row(parents[1]).norm() > 1 - 1e-9)
+        if (triangles.positions.row(parents[0]).norm() > 1 - 1e-9 &&
+            triangles.positions.row(parents[1]).norm() > 1 - 1e-9)
             mesh.positions.row(v).normalize();
     }
     // Of the four triangles in place of one, each names one old corner and two middles.

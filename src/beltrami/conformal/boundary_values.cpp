@@ -47,8 +47,8 @@ OuterLoop outer_loop(const Surface& source, std::optional<int> start) {
     return loop;
 }
 
-/// Makes nearly increasing values increasing: where they run backwards they are pooled (isotonic regression), and a pool
-/// is spread evenly by arc length between the middles of the gaps on both sides.
+/// Makes nearly increasing values increasing: where they run backwards they are pooled (isotonic regression), and a
+/// pool is spread evenly by arc length between the middles of the gaps on both sides.
 void make_increasing(std::vector<double>& values, double period, const std::vector<double>& arc) {
     struct Pool {
         double sum;
@@ -72,7 +72,8 @@ void make_increasing(std::vector<double>& values, double period, const std::vect
         const double low = 0.5 * (before + pools[p].mean()), high = 0.5 * (pools[p].mean() + after);
         const std::size_t first = pools[p].first, last = first + pools[p].count - 1;
         for (std::size_t i = first; i <= last; ++i)
-            values[i] = low + (high - low) * (arc[i] - arc[first] + 1e-3 * arc.back()) / (arc[last] - arc[first] + 2e-3 * arc.back());
+            values[i] = low + (high - low) * (arc[i] - arc[first] + 1e-3 * arc.back()) /
+                                  (arc[last] - arc[first] + 2e-3 * arc.back());
     }
 }
 
@@ -81,9 +82,10 @@ std::vector<double> conformal_angles(const Surface& source, const OuterLoop& loo
     const Chart chart = round_disk_chart(source);
     std::vector<double> angle{0.0};
     for (std::size_t i = 1; i < loop.size(); ++i)
-        angle.push_back(angle.back() + std::arg(chart.vertices[loop.vertices[i]] / chart.vertices[loop.vertices[i - 1]]));
-    // At a corner of angle α the map's boundary values move like s^{π/α}; at convex ones neighbouring vertices come so near
-    // each other that discretisation can exchange them.
+        angle.push_back(angle.back() +
+                        std::arg(chart.vertices[loop.vertices[i]] / chart.vertices[loop.vertices[i - 1]]));
+    // At a corner of angle α the map's boundary values move like s^{π/α}; at convex ones neighbouring vertices come so
+    // near each other that discretisation can exchange them.
     make_increasing(angle, kTwoPi, loop.arc);
     const double start = angle[0];
     for (double& a : angle) a -= start;

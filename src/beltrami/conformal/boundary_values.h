@@ -15,25 +15,30 @@ enum class BoundarySpeed {
 
 /// Prescribed values on boundary loop 0, taken counter-clockwise (faces on the left).
 struct BoundaryPlacement {
-    std::optional<int> start;  ///< the boundary vertex that goes to angle 0, the first corner or the first point; default: the smallest
+    std::optional<int> start;  ///< the boundary vertex that goes to angle 0, the first corner or the first point;
+                               ///< default: the smallest
     BoundarySpeed speed = BoundarySpeed::arclength;
 };
 
 /// The unit circle: the point at t = 2π · arc length / total (or conformal angle) goes to e^{i(t + amplitude sin t)}.
-/// @throw Error bad_option if |amplitude| ≥ 1 (the boundary would run backwards); bad_boundary if start is not on loop 0
+/// @throw Error bad_option if |amplitude| ≥ 1 (the boundary would run backwards); bad_boundary if start is not on loop
+/// 0
 BoundaryCondition boundary_to_disk(const Surface& source, double amplitude, const BoundaryPlacement& placement = {});
 
-/// The rectangle [0,width]×[0,height]: four boundary vertices, in counter-clockwise order, go to (0,0), (width,0), (width,height),
-/// (0,height), the sides in between by arc length, or as the conformal map of the quadrilateral, stretched to the rectangle.
-/// Without corners the boundary is cut at vertices nearest to the rectangle's own proportions.
+/// The rectangle [0,width]×[0,height]: four boundary vertices, in counter-clockwise order, go to (0,0), (width,0),
+/// (width,height), (0,height), the sides in between by arc length, or as the conformal map of the quadrilateral,
+/// stretched to the rectangle. Without corners the boundary is cut at vertices nearest to the rectangle's own
+/// proportions.
 /// @throw Error bad_option, bad_boundary
 BoundaryCondition boundary_to_rectangle(const Surface& source, double width, double height,
-                                        const std::optional<std::array<int, 4>>& corners, const BoundaryPlacement& placement = {});
+                                        const std::optional<std::array<int, 4>>& corners,
+                                        const BoundaryPlacement& placement = {});
 
-/// A simple closed polygon, counter-clockwise. The start goes to its first point; by arc length, each further corner that turns
-/// by more than 10 degrees receives the nearest vertex, so that the image has the polygon's corners.
-/// With conformal speed the polygon's inside is meshed and mapped to the round disk, as the source is.
+/// A simple closed polygon, counter-clockwise. The start goes to its first point; by arc length, each further corner
+/// that turns by more than 10 degrees receives the nearest vertex, so that the image has the polygon's corners. With
+/// conformal speed the polygon's inside is meshed and mapped to the round disk, as the source is.
 /// @throw Error bad_boundary for a polygon with fewer than 3 points, clockwise, or crossing itself (with the two edges)
-BoundaryCondition boundary_to_polygon(const Surface& source, const std::vector<Complex>& polygon, const BoundaryPlacement& placement = {});
+BoundaryCondition boundary_to_polygon(const Surface& source, const std::vector<Complex>& polygon,
+                                      const BoundaryPlacement& placement = {});
 
 }  // namespace beltrami

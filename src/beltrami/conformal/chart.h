@@ -15,7 +15,7 @@ struct Chart {
     Eigen::VectorXcd derivatives;  ///< #S ∂ of the chart in the samples' frames
     std::vector<char> excluded;    ///< #S 1 where the chart turns the sample over: its ψ means nothing there
     int excluded_faces = 0;
-    bool exact = false;            ///< the chart is the identity up to a similarity, so pulled-back ψ are truly holomorphic
+    bool exact = false;  ///< the chart is the identity up to a similarity, so pulled-back ψ are truly holomorphic
     int factorizations = 0;
     std::vector<std::string> warnings;
 };

@@ -47,7 +47,9 @@ struct HarmonicFunctions {
     const BeltramiSolver& dirichlet;
 
     /// The real harmonic function with the values of @p boundary on the boundary.
-    Eigen::VectorXd extend(const Eigen::VectorXd& boundary) const { return dirichlet.solve(boundary.cast<Complex>()).real(); }
+    Eigen::VectorXd extend(const Eigen::VectorXd& boundary) const {
+        return dirichlet.solve(boundary.cast<Complex>()).real();
+    }
 
     /// h + i h* with ∂̄(h + i h*) least and h* = 0 at the first boundary vertex.
     Eigen::VectorXcd with_conjugate(const Eigen::VectorXd& h) const {
@@ -55,7 +57,8 @@ struct HarmonicFunctions {
         for (const int v : source.mesh.faces.vertices()) freedom[v] = Freedom::sliding;
         freedom[source.topology.boundary_loops[0][0]] = Freedom::fixed;
         BeltramiSolver conjugate(source, freedom, 1);
-        conjugate.factorize(Eigen::VectorXcd::Zero(source.operators.sample_count()), Eigen::VectorXcd::Constant(h.size(), Complex(0, 1)));
+        conjugate.factorize(Eigen::VectorXcd::Zero(source.operators.sample_count()),
+                            Eigen::VectorXcd::Constant(h.size(), Complex(0, 1)));
         return conjugate.solve(h.cast<Complex>());
     }
 };
@@ -217,7 +220,9 @@ Chart compute_chart(const Surface& source, const BeltramiSolver* dirichlet, cons
 
 }  // namespace
 
-Chart round_disk_chart(const Surface& source, const RoundDiskOptions& options) { return compute_chart(source, nullptr, options); }
+Chart round_disk_chart(const Surface& source, const RoundDiskOptions& options) {
+    return compute_chart(source, nullptr, options);
+}
 
 Chart round_disk_chart(const Surface& source, const BeltramiSolver& dirichlet, const RoundDiskOptions& options) {
     return compute_chart(source, &dirichlet, options);

@@ -16,9 +16,12 @@ ChartGrid chart_grid(const Chart& chart, double phase, double cell_size) {
         if (chart.excluded[s]) continue;
         const Complex z = turn * chart.positions[s];
         // The offset keeps grid lines off the points of regular meshes.
-        const auto i = static_cast<std::int32_t>(std::floor(z.real() + 0.38196601)), j = static_cast<std::int32_t>(std::floor(z.imag() + 0.61803399));
+        const auto i = static_cast<std::int32_t>(std::floor(z.real() + 0.38196601)),
+                   j = static_cast<std::int32_t>(std::floor(z.imag() + 0.61803399));
         const auto shift = std::uint64_t{1} << 31;
-        keyed.emplace_back((static_cast<std::uint64_t>(i + static_cast<std::int64_t>(shift)) << 32) | static_cast<std::uint64_t>(j + static_cast<std::int64_t>(shift)), s);
+        keyed.emplace_back((static_cast<std::uint64_t>(i + static_cast<std::int64_t>(shift)) << 32) |
+                               static_cast<std::uint64_t>(j + static_cast<std::int64_t>(shift)),
+                           s);
     }
     std::sort(keyed.begin(), keyed.end());
     ChartGrid grid;

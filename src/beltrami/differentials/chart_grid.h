@@ -6,9 +6,9 @@ namespace beltrami {
 
 /// Samples of a chart sorted into square cells over the canonical domain. Cells without samples do not occur.
 struct ChartGrid {
-    std::vector<int> cell;                    ///< #S, −1 for an excluded sample
-    std::vector<int> offsets;                 ///< #cells+1 positions in samples
-    std::vector<int> samples;                 ///< ordered by cell, ascending within
+    std::vector<int> cell;     ///< #S, −1 for an excluded sample
+    std::vector<int> offsets;  ///< #cells+1 positions in samples
+    std::vector<int> samples;  ///< ordered by cell, ascending within
     int cell_count() const { return static_cast<int>(offsets.size()) - 1; }
 };
 

@@ -13,15 +13,16 @@ struct ChartPoints {
     Eigen::VectorXcd derivatives;
 };
 
-/// A finite-dimensional subspace of the holomorphic quadratic differentials Q of a problem, with a basis. The solver knows
-/// nothing else about topology and boundary condition.
+/// A finite-dimensional subspace of the holomorphic quadratic differentials Q of a problem, with a basis. The solver
+/// knows nothing else about topology and boundary condition.
 class DifferentialSpace {
   public:
     virtual ~DifferentialSpace() = default;
 
     /// Number of basis functions.
     virtual int size() const = 0;
-    /// True if combinations with complex coefficients belong to the space (boundary values fixed), false if only real ones do.
+    /// True if combinations with complex coefficients belong to the space (boundary values fixed), false if only real
+    /// ones do.
     virtual bool complex_coefficients() const = 0;
     /// Values of every basis function, pulled back to the points: #points × size().
     virtual Eigen::MatrixXcd evaluate(const ChartPoints& points) const = 0;

@@ -19,8 +19,8 @@ double norm_factor(int j) {
 PolynomialSpace::PolynomialSpace(int degree, int largest_degree) : degree_(degree), largest_degree_(largest_degree) {}
 
 int PolynomialSpace::largest_degree(int sample_count) {
-    // A polynomial of degree d turns d times along the circle, which has about 3.5 √(samples) edges: keep 16 edges a turn,
-    // and never more functions than smooth boundary data can ask for.
+    // A polynomial of degree d turns d times along the circle, which has about 3.5 √(samples) edges: keep 16 edges a
+    // turn, and never more functions than smooth boundary data can ask for.
     return std::clamp(static_cast<int>(0.2 * std::sqrt(static_cast<double>(sample_count))), 4, 40);
 }
 

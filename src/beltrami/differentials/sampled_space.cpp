@@ -49,7 +49,8 @@ void SampledSpace::set(const DifferentialSpace& space) {
     nodes.positions.resize(kNodes * centres_.size());
     nodes.derivatives = Eigen::VectorXcd::Ones(nodes.positions.size());
     for (Eigen::Index c = 0; c < centres_.size(); ++c)
-        for (int q = 0; q < kNodes; ++q) nodes.positions[kNodes * c + q] = centres_[c] + node_radius_ * node_direction(q);
+        for (int q = 0; q < kNodes; ++q)
+            nodes.positions[kNodes * c + q] = centres_[c] + node_radius_ * node_direction(q);
     values_ = space.evaluate(nodes);
 }
 
@@ -64,7 +65,8 @@ Eigen::VectorXcd SampledSpace::combination(const Eigen::VectorXcd& coefficients)
                 // Discrete Fourier transform of the nodes: coefficients of (w/r)^p.
                 std::array<Complex, kNodes> taylor{};
                 for (int p = 0; p < kNodes; ++p)
-                    for (int q = 0; q < kNodes; ++q) taylor[p] += 0.25 * std::conj(node_direction(p * q)) * values[kNodes * c + q];
+                    for (int q = 0; q < kNodes; ++q)
+                        taylor[p] += 0.25 * std::conj(node_direction(p * q)) * values[kNodes * c + q];
                 for (int i = grid_.offsets[c]; i < grid_.offsets[c + 1]; ++i) {
                     const int s = grid_.samples[i];
                     const Complex w = (chart_.positions[s] - centres_[c]) / node_radius_;

@@ -5,12 +5,13 @@
 
 namespace beltrami {
 
-/// A space of differentials on the samples of a mesh: values of a combination at every sample, and pairings of every basis
-/// function with weights at the samples.
+/// A space of differentials on the samples of a mesh: values of a combination at every sample, and pairings of every
+/// basis function with weights at the samples.
 ///
-/// On small meshes the values of all functions at all samples are kept. On large ones functions are evaluated at four nodes
-/// per cell of a grid over the canonical domain only: inside a cell a holomorphic function is its cubic interpolant through
-/// four points of a circle. That costs a few operations a sample instead of a few per function and sample.
+/// On small meshes the values of all functions at all samples are kept. On large ones functions are evaluated at four
+/// nodes per cell of a grid over the canonical domain only: inside a cell a holomorphic function is its cubic
+/// interpolant through four points of a circle. That costs a few operations a sample instead of a few per function and
+/// sample.
 class SampledSpace {
   public:
     /// @param chart kept by reference
@@ -32,10 +33,10 @@ class SampledSpace {
 
     const Chart& chart_;
     const DifferentialSpace* space_ = nullptr;
-    ChartGrid grid_{{}, {0}, {}};     ///< no cells: every value is kept
-    Eigen::VectorXcd centres_;        ///< #cells
+    ChartGrid grid_{{}, {0}, {}};  ///< no cells: every value is kept
+    Eigen::VectorXcd centres_;     ///< #cells
     double node_radius_ = 0;
-    Eigen::MatrixXcd values_;         ///< #S × m; or 4 #cells × m in the canonical domain
+    Eigen::MatrixXcd values_;  ///< #S × m; or 4 #cells × m in the canonical domain
 };
 
 }  // namespace beltrami

@@ -34,8 +34,8 @@ struct TriangulateOptions {
 
 /// Triangulates a planar domain: constrained Delaunay, refined (Ruppert 1995) until every triangle is smaller than the
 /// size field asks for and no angle is below min_angle. Segments that meet in a sharp corner are split on circles
-/// around it, and the angle of the corner itself is accepted, so refinement ends for any input. Without a size field and
-/// with min_angle = 0 nothing is refined: the constrained Delaunay triangulation of the given points.
+/// around it, and the angle of the corner itself is accepted, so refinement ends for any input. Without a size field
+/// and with min_angle = 0 nothing is refined: the constrained Delaunay triangulation of the given points.
 /// @return #V×2 mesh, counter-clockwise; vertices: the given points in their order, then the added ones
 /// @throw Error bad_option if points coincide, lie outside or segments cross; not_solved beyond max_vertices
 Mesh triangulate(const PlanarDomain& domain, const TriangulateOptions& options = {});

@@ -20,7 +20,8 @@ class ElementAssembly {
     int unknown_count() const { return unknown_count_; }
     /// Unknowns of an element, −1 where eliminated.
     std::span<const int> unknowns(int element) const {
-        return {unknowns_.data() + offsets_[element], static_cast<std::size_t>(offsets_[element + 1] - offsets_[element])};
+        return {unknowns_.data() + offsets_[element],
+                static_cast<std::size_t>(offsets_[element + 1] - offsets_[element])};
     }
     /// Value slots of the pairs (0,0), (1,0), (1,1), (2,0) … of an element; −1 where one of the two is eliminated.
     std::span<const int> slots(int element) const {

@@ -30,16 +30,18 @@ class SymmetricSolver {
     Matrix& matrix();
     const Matrix& matrix() const;
 
-    /// @throw Error not_solved if the matrix is not numerically positive definite; indices() are the rows that carry the
+    /// @throw Error not_solved if the matrix is not numerically positive definite; indices() are the rows that carry
+    /// the
     ///        null vector ("unconstrained"), the largest first.
     void factorize();
 
-    /// Solves for every column of @p rhs (#rows × #rhs). One step of iterative refinement is taken where the residual asks for it.
+    /// Solves for every column of @p rhs (#rows × #rhs). One step of iterative refinement is taken where the residual
+    /// asks for it.
     /// @throw Error not_solved if the relative residual stays above 1e-6
     Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const;
 
-    /// Solves with the present values by conjugate gradients, preconditioned by the last factorisation, which may belong to
-    /// other values: a few steps where the two matrices are close, and much cheaper than a new factorisation.
+    /// Solves with the present values by conjugate gradients, preconditioned by the last factorisation, which may
+    /// belong to other values: a few steps where the two matrices are close, and much cheaper than a new factorisation.
     /// @param solution in: a first guess; out: the solution, if it was found
     /// @param tolerance of the error, relative to the solution, in the energy norm
     /// @return false if the steps allowed would not suffice (found out early); then factorize() and solve()

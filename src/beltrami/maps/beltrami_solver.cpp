@@ -214,8 +214,7 @@ Eigen::VectorXcd BeltramiSolver::solve(const Eigen::VectorXcd& start) const {
 }
 
 Eigen::VectorXcd BeltramiSolver::solve_near(const Eigen::VectorXcd& nu, const Eigen::VectorXcd& start,
-                                            const Eigen::VectorXcd& guess,
-                                            double tolerance) {
+                                            const Eigen::VectorXcd& guess, double tolerance) {
     Implementation& m = *implementation_;
     if (!m.decoupled || m.solver->factorization_count() == 0) {
         factorize(nu, m.directions);

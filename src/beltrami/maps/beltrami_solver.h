@@ -23,21 +23,23 @@ class BeltramiSolver {
     /// Assembles and factorises for a coefficient.
     /// @param nu             #S coefficients in the samples' frames, |ν| < 1
     /// @param directions     #V directions of the sliding vertices (ignored elsewhere; may be empty if none slides)
-    /// @param extra_diagonal #V added to the diagonal entry of sliding vertices (curvature of their curves; may be empty).
+    /// @param extra_diagonal #V added to the diagonal entry of sliding vertices (curvature of their curves; may be
+    /// empty).
     ///                       It is held above −0.3 of the entry it is added to.
     /// @throw Error not_solved naming vertices that are not constrained
-    void factorize(const Eigen::VectorXcd& nu, const Eigen::VectorXcd& directions = {}, const Eigen::VectorXd& extra_diagonal = {});
+    void factorize(const Eigen::VectorXcd& nu, const Eigen::VectorXcd& directions = {},
+                   const Eigen::VectorXd& extra_diagonal = {});
 
-    /// Solves with the last factorisation. Fixed vertices keep their value of @p start; sliding ones have moved along their
-    /// direction; what free vertices have in @p start does not matter.
+    /// Solves with the last factorisation. Fixed vertices keep their value of @p start; sliding ones have moved along
+    /// their direction; what free vertices have in @p start does not matter.
     Eigen::VectorXcd solve(const Eigen::VectorXcd& start) const;
 
-    /// The map for a coefficient near that of the last factorize(): by conjugate gradients with the old factor where that takes
-    /// few steps, else with a new one.
+    /// The map for a coefficient near that of the last factorize(): by conjugate gradients with the old factor where
+    /// that takes few steps, else with a new one.
     /// @param guess     a map to start from, e.g. that of the old coefficient
     /// @param tolerance of the error, relative to the map, in the energy norm; at least 1e-11
-    Eigen::VectorXcd solve_near(const Eigen::VectorXcd& nu, const Eigen::VectorXcd& start, const Eigen::VectorXcd& guess,
-                                double tolerance = 1e-11);
+    Eigen::VectorXcd solve_near(const Eigen::VectorXcd& nu, const Eigen::VectorXcd& start,
+                                const Eigen::VectorXcd& guess, double tolerance = 1e-11);
 
     /// D^H W D f with D = ∂̄ − ν∂ of the last factorize: the force on each vertex (#V), for curvature terms.
     Eigen::VectorXcd gradient(const Eigen::VectorXcd& f) const;
@@ -53,10 +55,12 @@ class BeltramiSolver {
 /// The harmonic map of the surface's metric: cotangent weights (Pinkall & Polthier 1993) on triangles.
 /// @pre the whole boundary is prescribed
 /// @throw Error bad_boundary, not_solved
-Eigen::VectorXcd harmonic_map(const Surface& source, const BoundaryCondition& boundary, int expected_factorizations = 1);
+Eigen::VectorXcd harmonic_map(const Surface& source, const BoundaryCondition& boundary,
+                              int expected_factorizations = 1);
 
 /// The least-squares conformal map (Lévy et al. 2002) with the given pins, at least two of which must differ; where a
-/// boundary vertex is not pinned it is free. With no pins, two boundary vertices far apart are pinned at their distance.
+/// boundary vertex is not pinned it is free. With no pins, two boundary vertices far apart are pinned at their
+/// distance.
 /// @throw Error bad_boundary, not_solved
 Eigen::VectorXcd least_squares_conformal_map(const Surface& source, const BoundaryCondition& boundary);
 

@@ -9,8 +9,8 @@ namespace beltrami {
 /// What is prescribed about a map to the plane: vertices with their image points. Boundary vertices that are not named
 /// are free (natural condition).
 struct BoundaryCondition {
-    std::vector<int> vertices;   ///< each at most once
-    std::vector<Complex> images; ///< beside vertices
+    std::vector<int> vertices;    ///< each at most once
+    std::vector<Complex> images;  ///< beside vertices
 
     void pin(int vertex, Complex image) {
         vertices.push_back(vertex);

@@ -4,8 +4,8 @@
 
 namespace beltrami {
 
-/// Seconds of one harmonic map of a loaded mesh: operators, ordering, analysis, assembly, factorisation and solution, with
-/// the ordering and threads that the solvers use; median of three. The yardstick for other times.
+/// Seconds of one harmonic map of a loaded mesh: operators, ordering, analysis, assembly, factorisation and solution,
+/// with the ordering and threads that the solvers use; median of three. The yardstick for other times.
 double harmonic_seconds(const Surface& source, const BoundaryCondition& boundary);
 
 }  // namespace beltrami

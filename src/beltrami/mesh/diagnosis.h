@@ -12,7 +12,7 @@ enum class Defect {
     empty,
     not_finite,
     index_out_of_range,
-    too_many_corners,        ///< faces with more than 4 (or fewer than 3) corners
+    too_many_corners,  ///< faces with more than 4 (or fewer than 3) corners
     unreferenced_vertex,
     several_components,
     non_manifold_edge,
@@ -20,17 +20,17 @@ enum class Defect {
     inconsistent_orientation,  ///< neighbouring faces disagree; a coherent orientation exists
     not_orientable,            ///< no coherent orientation exists (Möbius)
     duplicate_face,
-    degenerate_face,           ///< a face that names a vertex twice
+    degenerate_face,  ///< a face that names a vertex twice
     zero_area_face,
     sliver_face,
-    folded_planar_face,        ///< planar mesh with faces of both orientations
+    folded_planar_face,  ///< planar mesh with faces of both orientations
 };
 
 /// One finding: what, where, what next.
 struct Finding {
     Defect defect;
-    bool fatal;                ///< true: no map can be computed before it is mended; false: a warning
-    std::string sentence;      ///< plain words, without a final full stop
+    bool fatal;            ///< true: no map can be computed before it is mended; false: a warning
+    std::string sentence;  ///< plain words, without a final full stop
     std::string next_step;
     std::vector<int> indices;  ///< vertices, edges as vertex pairs or faces, as the sentence says; counted from 0
 };

@@ -8,13 +8,13 @@ namespace beltrami {
 
 /// Why something could not be done. The command's exit code is a function of the cause alone.
 enum class Cause {
-    bad_option,     ///< an option or argument has an impossible value
-    unreadable,     ///< a file is missing, truncated, malformed or too large to be true
-    bad_mesh,       ///< the mesh cannot carry the computation (see diagnose)
-    bad_boundary,   ///< boundary data is missing, contradictory or impossible
-    not_solved,     ///< a factorisation or an iteration failed
-    unwritable,     ///< an output could not be written
-    cancelled,      ///< the caller asked to stop
+    bad_option,    ///< an option or argument has an impossible value
+    unreadable,    ///< a file is missing, truncated, malformed or too large to be true
+    bad_mesh,      ///< the mesh cannot carry the computation (see diagnose)
+    bad_boundary,  ///< boundary data is missing, contradictory or impossible
+    not_solved,    ///< a factorisation or an iteration failed
+    unwritable,    ///< an output could not be written
+    cancelled,     ///< the caller asked to stop
 };
 
 /// Every failure of the library: a cause, a sentence, the offending indices and what to do next.

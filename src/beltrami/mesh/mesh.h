@@ -57,7 +57,8 @@ struct TextureCoordinates {
     std::vector<int> corners;  ///< #corners indices into points, -1 where a corner has none
 };
 
-/// A polygon mesh of triangles and quads. A plain value: nothing is reordered, merged or dropped behind the user's back.
+/// A polygon mesh of triangles and quads. A plain value: nothing is reordered, merged or dropped behind the user's
+/// back.
 struct Mesh {
     Positions positions;                        ///< #V×3 or #V×2
     FaceList faces;                             ///< #F faces

@@ -18,15 +18,15 @@ double dilatation(double abs_mu);
 
 /// What a map does to its source, measured by the one routine that solvers, tests and the command share.
 struct Distortion {
-    Eigen::VectorXcd mu;           ///< #S
-    Eigen::VectorXcd face_mu;      ///< #F, the area-weighted mean of a face's samples
-    Eigen::VectorXd face_abs_mu;   ///< #F, the largest |μ| of a face's samples; NaN where undefined
-    double mean = 0;               ///< of |μ|, weighted by source area, over the samples where it is defined and finite
-    double standard_deviation = 0; ///< likewise
-    double p99 = 0;                ///< the value that 99 % of the source area stays below or at
-    double max = 0;                ///< largest |μ|; infinite if ∂f vanishes alone somewhere
-    std::vector<int> flipped;      ///< faces with |μ| > 1 at some sample
-    std::vector<int> degenerate;   ///< faces whose image has an area below 1e-14 of the image's squared diameter
+    Eigen::VectorXcd mu;          ///< #S
+    Eigen::VectorXcd face_mu;     ///< #F, the area-weighted mean of a face's samples
+    Eigen::VectorXd face_abs_mu;  ///< #F, the largest |μ| of a face's samples; NaN where undefined
+    double mean = 0;              ///< of |μ|, weighted by source area, over the samples where it is defined and finite
+    double standard_deviation = 0;  ///< likewise
+    double p99 = 0;                 ///< the value that 99 % of the source area stays below or at
+    double max = 0;                 ///< largest |μ|; infinite if ∂f vanishes alone somewhere
+    std::vector<int> flipped;       ///< faces with |μ| > 1 at some sample
+    std::vector<int> degenerate;    ///< faces whose image has an area below 1e-14 of the image's squared diameter
 
     double max_dilatation() const { return dilatation(max); }
 };

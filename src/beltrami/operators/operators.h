@@ -55,8 +55,8 @@ struct Operators {
     Matrix d_zbar() const;  ///< ∂̄ as a #S×#V matrix
 };
 
-/// Operators of a mesh: of the plane for a planar mesh (one whose faces are all clockwise is looked at from below), else of
-/// its faces in space.
+/// Operators of a mesh: of the plane for a planar mesh (one whose faces are all clockwise is looked at from below),
+/// else of its faces in space.
 /// @pre diagnose(mesh) has no fatal finding
 /// @throw Error bad_mesh naming faces whose area at some sample is not positive (a reflex or folded quad)
 Operators operators(const Mesh& mesh);
@@ -68,7 +68,8 @@ struct EdgeLength {
 };
 
 /// Operators of a custom metric: every edge of a triangle mesh has a length.
-/// @throw Error bad_mesh for missing, repeated, unknown or non-positive lengths, for triangles that violate the triangle
+/// @throw Error bad_mesh for missing, repeated, unknown or non-positive lengths, for triangles that violate the
+/// triangle
 ///        inequality (named), and for quads, whose shape edge lengths do not determine.
 Operators operators_from_lengths(const Mesh& mesh, std::span<const EdgeLength> lengths);
 

@@ -11,8 +11,8 @@ struct Surface {
     Mesh mesh;
     std::vector<Finding> findings;  ///< warnings of the diagnosis
     Topology topology;
-    Operators operators;            ///< of the mesh's own metric unless another was given
-    bool planar_metric;             ///< operators are in the frame of the plane that the mesh lies in
+    Operators operators;  ///< of the mesh's own metric unless another was given
+    bool planar_metric;   ///< operators are in the frame of the plane that the mesh lies in
 
     /// With the metric of the mesh itself.
     /// @throw Error bad_mesh

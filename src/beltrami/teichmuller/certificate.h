@@ -11,27 +11,27 @@ struct Bound {
     enum class Of { extremal, mesh };
     std::string kind;  ///< "reich_strebel", "reich_strebel_estimate", "mesh_harmonic", "attained"
     double K;
-    Of of;             ///< of K*, the dilatation of the extremal map, or of every piecewise linear map of this mesh
-    bool rigorous;     ///< a proof up to floating point and quadrature; else an estimate
+    Of of;          ///< of K*, the dilatation of the extremal map, or of every piecewise linear map of this mesh
+    bool rigorous;  ///< a proof up to floating point and quadrature; else an estimate
 };
 
 /// Integrals of a map's coefficient μ against a holomorphic φ, and what follows from them:
 /// I∓ = ∫|φ| |1 ∓ μφ/|φ||²/(1−|μ|²) / ∫|φ|  (Reich & Strebel).
 struct ReichStrebel {
-    double lower = 0;     ///< 1/I⁻ ≤ K* for every quasiconformal f in the class and holomorphic φ
+    double lower = 0;  ///< 1/I⁻ ≤ K* for every quasiconformal f in the class and holomorphic φ
     double estimate = 0;  ///< √(I⁺/I⁻) = (1+k)/(1−k) with S of the c-step; lower ≤ estimate ≤ K of the worst face
-    double upper = 0;     ///< I⁺, which K* approaches from below at the extremal φ
-    bool valid = false;   ///< false where the map has |μ| ≥ 1 somewhere
+    double upper = 0;    ///< I⁺, which K* approaches from below at the extremal φ
+    bool valid = false;  ///< false where the map has |μ| ≥ 1 somewhere
 };
 
-/// Evaluates the Reich-Strebel integrals for the combination of @p space with the given coefficients. Triangles near zeros
-/// of φ are divided for the quadrature; μ is constant on a sample. Samples that the chart excludes take no part.
+/// Evaluates the Reich-Strebel integrals for the combination of @p space with the given coefficients. Triangles near
+/// zeros of φ are divided for the quadrature; μ is constant on a sample. Samples that the chart excludes take no part.
 /// @param mu #S coefficients of the map
 ReichStrebel reich_strebel(const Surface& source, const Chart& chart, const DifferentialSpace& space,
                            const Eigen::VectorXcd& coefficients, const Eigen::VectorXcd& mu);
 
-/// Every piecewise linear map of this mesh with these boundary values has K ≥ c + √(c²−1), with c the Dirichlet energy of the
-/// harmonic map over the area of the image, normalised to 1 for a conformal map.
+/// Every piecewise linear map of this mesh with these boundary values has K ≥ c + √(c²−1), with c the Dirichlet energy
+/// of the harmonic map over the area of the image, normalised to 1 for a conformal map.
 /// @return 1 where the area of the image is not positive
 double mesh_harmonic_bound(const Operators& source, const Eigen::VectorXcd& harmonic);
 

@@ -17,8 +17,6 @@ constexpr double kTwoPi = 2 * std::numbers::pi;
 constexpr int kWorthFrom = 6'000;
 /// Triangles of the coarse mesh: a part of the samples, within limits.
 constexpr int kCoarsePart = 7, kFewestTriangles = 1'200, kMostTriangles = 5'000;
-/// The coarse problem is off by its own mesh; solving it further is of no use.
-constexpr double kCoarseTolerance = 1e-4;
 
 /// The prescribed values along the canonical circle.
 struct CircleValues {
@@ -60,7 +58,8 @@ HamiltonState coarse_start(const Surface& source, const BoundaryCondition& bound
     const CircleValues values = circle_values(source, boundary, chart);
     if (values.angle.empty()) return {};
 
-    Mesh mesh = disk(disk_rings_for_triangles(std::clamp(source.operators.sample_count() / kCoarsePart, kFewestTriangles, kMostTriangles)));
+    Mesh mesh = disk(disk_rings_for_triangles(
+        std::clamp(source.operators.sample_count() / kCoarsePart, kFewestTriangles, kMostTriangles)));
     for (int v = 0; v < mesh.vertex_count(); ++v) {
         const Complex z = std::polar(1.0, phase) * Complex(mesh.positions(v, 0), mesh.positions(v, 1));
         mesh.positions.row(v) << z.real(), z.imag();
@@ -75,7 +74,6 @@ HamiltonState coarse_start(const Surface& source, const BoundaryCondition& bound
     }
     const Chart model_chart = round_disk_chart(model);
     ExtremalOptions coarse_options = options;
-    coarse_options.tolerance = std::max(options.tolerance, kCoarseTolerance);
     coarse_options.progress = {};
     BeltramiSolver solver(model, freedoms(coarse, model), 1);
     const Eigen::VectorXcd prescribed = prescribed_values(coarse, model);
@@ -83,8 +81,9 @@ HamiltonState coarse_start(const Surface& source, const BoundaryCondition& bound
     CoefficientStep coefficient_step(model, model_chart, phase, options.cluster_count);
     HamiltonIteration iteration(model, solver, prescribed, coefficient_step, coarse_options);
     HamiltonState state;
-    iteration.run(state, solver.solve(prescribed), PolynomialSpace::for_samples(model.operators.sample_count()));
-    state.space = std::make_unique<PolynomialSpace>(state.space->size() - 1, PolynomialSpace::largest_degree(source.operators.sample_count()));
+    iteration.run(state, solver.solve(prescribed), PolynomialSpace::for_samples(model.operators.sample_count()), false);
+    state.space = std::make_unique<PolynomialSpace>(state.space->size() - 1,
+                                                    PolynomialSpace::largest_degree(source.operators.sample_count()));
     return state;
 }
 

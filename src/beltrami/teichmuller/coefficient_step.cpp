@@ -18,7 +18,10 @@ Complex clipped(Complex mu) {
 }  // namespace
 
 CoefficientStep::CoefficientStep(const Surface& source, const Chart& chart, double phase, int cluster_count)
-    : source_(source), chart_(chart), sampled_(chart, phase), clusters_(cluster_samples(source.operators, chart, phase, cluster_count)) {}
+    : source_(source),
+      chart_(chart),
+      sampled_(chart, phase),
+      clusters_(cluster_samples(source.operators, chart, phase, cluster_count)) {}
 
 void CoefficientStep::set_space(const DifferentialSpace& space) {
     sampled_.set(space);
@@ -26,7 +29,8 @@ void CoefficientStep::set_space(const DifferentialSpace& space) {
     problem_.complex_coefficients = space.complex_coefficients();
 }
 
-CoefficientStep::Result CoefficientStep::solve(const Eigen::VectorXcd& mu, const Eigen::VectorXcd& start, const Eigen::VectorXcd& known_phi) {
+CoefficientStep::Result CoefficientStep::solve(const Eigen::VectorXcd& mu, const Eigen::VectorXcd& start,
+                                               const Eigen::VectorXcd& known_phi) {
     const int samples = source_.operators.sample_count();
     const int size = static_cast<int>(problem_.basis.cols());
     Eigen::MatrixXcd weights = Eigen::MatrixXcd::Zero(samples, 2);  // A b, and A a conj(φ)/|φ| at the start

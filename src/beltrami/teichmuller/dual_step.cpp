@@ -15,7 +15,9 @@ constexpr double kFloor = 1e-12;
 constexpr double kGradientTolerance = 1e-12;
 
 /// |φ|, without the care that std::abs takes of overflow.
-Eigen::VectorXd sizes_of(const Eigen::VectorXcd& phi) { return phi.cwiseAbs2().cwiseSqrt(); }
+Eigen::VectorXd sizes_of(const Eigen::VectorXcd& phi) {
+    return phi.cwiseAbs2().cwiseSqrt();
+}
 
 /// Real view of the coefficients: (Re c, Im c), or Re c alone.
 struct RealView {

@@ -11,13 +11,13 @@ namespace beltrami {
 /// If μ = k conj(φ)/|φ| with φ in the space, the maximum is there and S = 2k/(1+k²). As a convex problem: minimise
 /// N(c) = Σ A a |φ_c| on the hyperplane Re Σ A b φ_c = 1, by Newton with backtracking.
 struct DualProblem {
-    Eigen::MatrixXcd basis;       ///< #Q×m values of the basis at quadrature points
-    Eigen::VectorXd weights;      ///< #Q weights of |φ|
-    Eigen::VectorXcd pairing;     ///< m values p_j = Σ A b φ_j
-    /// m values q_j added to the norm as Re Σ q_j c_j, or empty: what the gradient of the exact norm has beyond that of a
-    /// coarse quadrature. The minimum of the corrected problem is the exact one as soon as q is taken there.
+    Eigen::MatrixXcd basis;    ///< #Q×m values of the basis at quadrature points
+    Eigen::VectorXd weights;   ///< #Q weights of |φ|
+    Eigen::VectorXcd pairing;  ///< m values p_j = Σ A b φ_j
+    /// m values q_j added to the norm as Re Σ q_j c_j, or empty: what the gradient of the exact norm has beyond that of
+    /// a coarse quadrature. The minimum of the corrected problem is the exact one as soon as q is taken there.
     Eigen::VectorXcd correction;
-    bool complex_coefficients;    ///< c complex, or real
+    bool complex_coefficients;  ///< c complex, or real
 };
 
 struct DualSolution {
@@ -27,12 +27,15 @@ struct DualSolution {
     int newton_steps = 0;
 };
 
-/// @param start coefficients to start from (may be shorter than m: padded by zeros; may be empty); ignored when its pairing is
+/// @param start coefficients to start from (may be shorter than m: padded by zeros; may be empty); ignored when its
+/// pairing is
 ///              not positive
 DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& start, int max_newton_steps = 50);
 
-/// m values Σ w conj(φ)/|φ| φ_j: the gradient of Σ w|φ_c| as a complex covector. |φ| is floored at 1e-12 of its maximum.
-Eigen::VectorXcd dual_gradient(const Eigen::MatrixXcd& basis, const Eigen::VectorXd& weights, const Eigen::VectorXcd& phi);
+/// m values Σ w conj(φ)/|φ| φ_j: the gradient of Σ w|φ_c| as a complex covector. |φ| is floored at 1e-12 of its
+/// maximum.
+Eigen::VectorXcd dual_gradient(const Eigen::MatrixXcd& basis, const Eigen::VectorXd& weights,
+                               const Eigen::VectorXcd& phi);
 
 /// k of S = 2k/(1+k²), without cancellation.
 double dilatation_of_pairing(double S);
@@ -40,9 +43,9 @@ double dilatation_of_pairing(double S);
 /// A coarser quadrature of ∫ a|φ|: samples near each other in the canonical domain share one point, for φ varies slowly
 /// there while μ is noisy. Pairings stay exact; the norm is summed over the clusters and corrected to first order.
 struct SampleClusters {
-    std::vector<int> cluster;    ///< #S cluster of the sample, −1 for an excluded one
-    ChartPoints points;          ///< #Q centroids (weighted by area in the domain), derivatives 1
-    std::vector<double> squared; ///< #S A |derivative|²: area in the domain; 0 for an excluded one
+    std::vector<int> cluster;     ///< #S cluster of the sample, −1 for an excluded one
+    ChartPoints points;           ///< #Q centroids (weighted by area in the domain), derivatives 1
+    std::vector<double> squared;  ///< #S A |derivative|²: area in the domain; 0 for an excluded one
 };
 
 /// @param phase rotation of the grid, to be tied to the data so that turning the source changes nothing

@@ -79,7 +79,7 @@ ExtremalMap extremal_map(const Surface& source, const BoundaryCondition& boundar
     HamiltonState state = coarse_start(source, boundary, chart, phase, options);
     CoefficientStep coefficient_step(source, chart, phase, options.cluster_count);
     HamiltonIteration iteration(source, solver, prescribed, coefficient_step, options);
-    iteration.run(state, result.harmonic, PolynomialSpace::for_samples(operators.sample_count()));
+    iteration.run(state, result.harmonic, PolynomialSpace::for_samples(operators.sample_count()), true);
     result.map = iteration.map();
     result.history = iteration.history();
     result.iterations = iteration.iterations();

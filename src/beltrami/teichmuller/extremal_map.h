@@ -11,11 +11,11 @@
 namespace beltrami {
 
 struct ExtremalOptions {
-    double tolerance = 1e-8;      ///< stop when |Δk| and the change of the direction of φ are below this
-    int max_iterations = 60;      ///< linear solves
-    double growth = 1e-5;         ///< the space of differentials grows while that raises k by more than this part
-    int anderson_window = 5;      ///< 0: plain iteration
-    int cluster_count = 1500;     ///< quadrature points of the c-step on large meshes, at least 100
+    double tolerance = 1e-8;   ///< stop when |Δk| and the change of the direction of φ are below this
+    int max_iterations = 60;   ///< linear solves
+    double growth = 1e-5;      ///< the space of differentials grows while that raises k by more than this part
+    int anderson_window = 5;   ///< 0: plain iteration
+    int cluster_count = 1500;  ///< quadrature points of the c-step on large meshes, at least 100
     /// Called once per iteration with its number and k; returning false cancels (Error cancelled).
     std::function<bool(int iteration, double k)> progress;
 
@@ -32,30 +32,31 @@ struct Iteration {
     int functions;  ///< dimension of the space of differentials
 };
 
-/// The map of least dilatation among all with the same boundary values (of the same homotopy class), and how good it is.
+/// The map of least dilatation among all with the same boundary values (of the same homotopy class), and how good it
+/// is.
 struct ExtremalMap {
-    Eigen::VectorXcd map;              ///< #V images
-    Eigen::VectorXcd phi;              ///< #S quadratic differential in the samples' frames; 0 where the chart excludes the sample
-    Eigen::VectorXcd harmonic;         ///< #V the harmonic start
-    Distortion distortion;             ///< of map
-    double k = 0, K = 1;               ///< of the last c-step: an estimate of k*, K*
-    double K_lower = 1;                ///< largest Reich-Strebel bound; 1 if there is none
-    double K_max = 0;                  ///< largest K of a face; infinite if faces are flipped or collapsed
+    Eigen::VectorXcd map;  ///< #V images
+    Eigen::VectorXcd phi;  ///< #S quadratic differential in the samples' frames; 0 where the chart excludes the sample
+    Eigen::VectorXcd harmonic;  ///< #V the harmonic start
+    Distortion distortion;      ///< of map
+    double k = 0, K = 1;        ///< of the last c-step: an estimate of k*, K*
+    double K_lower = 1;         ///< largest Reich-Strebel bound; 1 if there is none
+    double K_max = 0;           ///< largest K of a face; infinite if faces are flipped or collapsed
     std::vector<Bound> bounds;
-    double boundary_residual = 0;      ///< largest distance of a prescribed vertex from its image
+    double boundary_residual = 0;  ///< largest distance of a prescribed vertex from its image
     Termination termination = Termination::converged;
-    int iterations = 0;                ///< linear solves after the harmonic one
-    int factorizations = 0;            ///< of #V×#V systems and larger, chart included
+    int iterations = 0;      ///< linear solves after the harmonic one
+    int factorizations = 0;  ///< of #V×#V systems and larger, chart included
     std::vector<Iteration> history;
     std::vector<std::string> warnings;
 };
 
 /// The extremal quasiconformal (Teichmüller) map with prescribed boundary values, by Hamilton's iteration with Anderson
 /// acceleration: the c-step (dual_step.h) finds the quadratic differential φ and k of the present map, the f-step
-/// (beltrami_solver.h) the map with coefficient k conj(φ)/|φ|. The metric of the source stays in ∂ and ∂̄; a conformal chart
-/// of the round disk only serves to write φ down.
-/// Weber, Myles & Zorin 2012 solve the same problem by alternating least squares; here φ is holomorphic by construction
-/// and k is found from pairings, which are blind to the noise at the zeros of φ.
+/// (beltrami_solver.h) the map with coefficient k conj(φ)/|φ|. The metric of the source stays in ∂ and ∂̄; a conformal
+/// chart of the round disk only serves to write φ down. Weber, Myles & Zorin 2012 solve the same problem by alternating
+/// least squares; here φ is holomorphic by construction and k is found from pairings, which are blind to the noise at
+/// the zeros of φ.
 /// @pre a disk: one component, one boundary loop, genus 0; every boundary vertex is prescribed
 /// @throw Error bad_mesh, bad_boundary, not_solved, cancelled, bad_option
 ExtremalMap extremal_map(const Surface& source, const BoundaryCondition& boundary, const ExtremalOptions& options = {});

@@ -14,7 +14,6 @@ namespace {
 constexpr double kLargest = 0.9999;
 /// The f-step is solved to this part of the change that the c-step will see.
 constexpr double kSolveBelowChange = 1e-3;
-constexpr double kTryToGrowBelow = 0.03;
 
 /// ν = k conj(φ)/|φ|, 0 where φ says nothing.
 Eigen::VectorXcd teichmueller_coefficient(double k, const Eigen::VectorXcd& phi) {
@@ -37,7 +36,11 @@ Eigen::VectorXd pack(const Eigen::VectorXcd& direction, double k) {
 
 HamiltonIteration::HamiltonIteration(const Surface& source, BeltramiSolver& solver, const Eigen::VectorXcd& prescribed,
                                      CoefficientStep& coefficient_step, const ExtremalOptions& options)
-    : source_(source), solver_(solver), prescribed_(prescribed), coefficient_step_(coefficient_step), options_(options) {}
+    : source_(source),
+      solver_(solver),
+      prescribed_(prescribed),
+      coefficient_step_(coefficient_step),
+      options_(options) {}
 
 /// Takes larger spaces while they raise k noticeably; returns whether any did.
 bool HamiltonIteration::grow(HamiltonState& state, const Eigen::VectorXcd& mu) {
@@ -56,8 +59,10 @@ bool HamiltonIteration::grow(HamiltonState& state, const Eigen::VectorXcd& mu) {
     return grown;
 }
 
-void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start, std::unique_ptr<DifferentialSpace> smallest) {
+void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
+                            std::unique_ptr<DifferentialSpace> smallest, bool may_grow_in_the_end) {
     map_ = start;
+    const bool from_elsewhere = state.space != nullptr;
     bool near_last_factor = false;
     if (!state.space) {
         state.space = std::move(smallest);
@@ -74,9 +79,9 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
 
     AndersonAcceleration anderson(options_.anderson_window);
     double change = 1;
-    bool tried_to_grow = false;
     while (iterations_ < options_.max_iterations) {
-        const Eigen::VectorXcd phi = coefficient_step_.values(state.direction), nu = teichmueller_coefficient(state.k, phi);
+        const Eigen::VectorXcd phi = coefficient_step_.values(state.direction),
+                               nu = teichmueller_coefficient(state.k, phi);
         if (near_last_factor) {
             map_ = solver_.solve_near(nu, prescribed_, map_, kSolveBelowChange * std::min(change, 0.1));
         } else {
@@ -94,12 +99,12 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
             throw Error(Cause::cancelled, "cancelled after iteration " + std::to_string(iterations_));
 
         // Where k vanishes the direction of φ means nothing.
-        const bool settled = k_change < options_.tolerance && (change < options_.tolerance || step_.k < options_.tolerance);
-        // Growing is tried once for each space as soon as φ is roughly known, and again in the end.
-        if (settled || (!tried_to_grow && change < kTryToGrowBelow)) {
-            tried_to_grow = true;
+        const bool settled =
+            k_change < options_.tolerance && (change < options_.tolerance || step_.k < options_.tolerance);
+        // Growing is decided where the map is exact to rounding, which must not turn the decision: at the start
+        // (above), at the first map that comes from another mesh's φ, and in the end.
+        if ((from_elsewhere && iterations_ == 1) || (settled && may_grow_in_the_end)) {
             if (grow(state, mu)) {
-                tried_to_grow = false;
                 anderson.reset();
                 change = 1;
                 state.direction = step_.direction;

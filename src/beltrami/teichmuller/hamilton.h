@@ -15,17 +15,20 @@ struct HamiltonState {
     double k = 0;
 };
 
-/// Hamilton's iteration, the one loop for every topology: the c-step finds φ and k of a map, the f-step the map with the
-/// coefficient k conj(φ)/|φ|, until both settle. Anderson acceleration on (direction of φ, k).
+/// Hamilton's iteration, the one loop for every topology: the c-step finds φ and k of a map, the f-step the map with
+/// the coefficient k conj(φ)/|φ|, until both settle. Anderson acceleration on (direction of φ, k).
 class HamiltonIteration {
   public:
-    /// All are kept by reference. @param solver factorised for a coefficient near where the iteration starts, or for any
+    /// All are kept by reference. @param solver factorised for a coefficient near where the iteration starts, or for
+    /// any
     HamiltonIteration(const Surface& source, BeltramiSolver& solver, const Eigen::VectorXcd& prescribed,
                       CoefficientStep& coefficient_step, const ExtremalOptions& options);
 
     /// Runs from @p state, or where that knows nothing from the c-step of @p start in @p smallest, a first space.
     /// state.space is the last space used; last_step() belongs to it.
-    void run(HamiltonState& state, const Eigen::VectorXcd& start, std::unique_ptr<DifferentialSpace> smallest);
+    /// @param may_grow_in_the_end whether a larger space is tried once all has settled
+    void run(HamiltonState& state, const Eigen::VectorXcd& start, std::unique_ptr<DifferentialSpace> smallest,
+             bool may_grow_in_the_end);
 
     const Eigen::VectorXcd& map() const { return map_; }
     /// The c-step of map().

@@ -60,7 +60,9 @@ TEST(BoundaryToRectangle, ConformalSpeedOfARectangleIsTheIdentity) {
     for (const BoundarySpeed speed : {BoundarySpeed::conformal, BoundarySpeed::arclength}) {
         const BoundaryCondition b = boundary_to_rectangle(surface, 2.0, 1.0, corners, {std::nullopt, speed});
         for (std::size_t i = 0; i < b.vertices.size(); ++i)
-            EXPECT_NEAR(std::abs(b.images[i] - Complex(surface.mesh.positions(b.vertices[i], 0), surface.mesh.positions(b.vertices[i], 1))), 0, 1e-9);
+            EXPECT_NEAR(std::abs(b.images[i] - Complex(surface.mesh.positions(b.vertices[i], 0),
+                                                       surface.mesh.positions(b.vertices[i], 1))),
+                        0, 1e-9);
     }
 }
 
@@ -90,7 +92,8 @@ TEST(BoundaryToPolygon, ConformalSpeedOfARegularPolygonKeepsItsSymmetry) {
     std::vector<Complex> hexagon;
     for (int i = 0; i < 6; ++i) hexagon.push_back(std::polar(1.0, kTwoPi * i / 6));
     const BoundaryCondition b = boundary_to_polygon(surface, hexagon, {std::nullopt, BoundarySpeed::conformal});
-    for (std::size_t i = 0; i < 144; ++i) EXPECT_NEAR(std::abs(b.images[(i + 24) % 144] - b.images[i] * std::polar(1.0, kTwoPi / 6)), 0, 2e-2);
+    for (std::size_t i = 0; i < 144; ++i)
+        EXPECT_NEAR(std::abs(b.images[(i + 24) % 144] - b.images[i] * std::polar(1.0, kTwoPi / 6)), 0, 2e-2);
     // Near a corner of angle 2π/3 the speed vanishes like s^{2/3 − 1 + …}: slower than in the middle of a side.
     EXPECT_GT(std::abs(b.images[1] - b.images[0]), std::abs(b.images[12] - b.images[11]));
 }
@@ -101,9 +104,19 @@ TEST(BoundaryValues, ImpossibleOnesAreRefused) {
     EXPECT_EQ(cause_of([&] { boundary_to_disk(surface, 0, {0, BoundarySpeed::arclength}); }), Cause::bad_boundary);
     EXPECT_EQ(cause_of([&] { boundary_to_rectangle(surface, 1, 0, {}); }), Cause::bad_option);
     const auto& l = surface.topology.boundary_loops[0];
-    EXPECT_EQ(cause_of([&] { boundary_to_rectangle(surface, 1, 1, std::array{l[0], l[9], l[5], l[12]}); }), Cause::bad_boundary);
-    EXPECT_EQ(cause_of([&] { boundary_to_rectangle(surface, 1, 1, std::array{0, l[9], l[5], l[12]}); }), Cause::bad_boundary);
-    EXPECT_EQ(cause_of([&] { boundary_to_rectangle(surface, 1, 1, std::array{l[0], l[2], l[5], l[12]}, {l[1], BoundarySpeed::arclength}); }), Cause::bad_option);
+    EXPECT_EQ(cause_of([&] {
+                  boundary_to_rectangle(surface, 1, 1, std::array{l[0], l[9], l[5], l[12]});
+              }),
+              Cause::bad_boundary);
+    EXPECT_EQ(cause_of([&] {
+                  boundary_to_rectangle(surface, 1, 1, std::array{0, l[9], l[5], l[12]});
+              }),
+              Cause::bad_boundary);
+    EXPECT_EQ(
+        cause_of([&] {
+            boundary_to_rectangle(surface, 1, 1, std::array{l[0], l[2], l[5], l[12]}, {l[1], BoundarySpeed::arclength});
+        }),
+        Cause::bad_option);
     EXPECT_EQ(cause_of([&] { boundary_to_polygon(surface, {{0, 0}, {1, 0}}); }), Cause::bad_boundary);
 }
 

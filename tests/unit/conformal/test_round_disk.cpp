@@ -20,7 +20,8 @@ TEST(RoundDisk, ARoundDiskIsItsOwnChart) {
     for (const Complex d : chart.derivatives) EXPECT_NEAR(std::abs(d - 1 / 3e5), 0, 1e-14);
 }
 
-/// The disk's image under F must come back to the disk up to a Möbius map; returns the largest error after the best one.
+/// The disk's image under F must come back to the disk up to a Möbius map; returns the largest error after the best
+/// one.
 double error_of(int triangles, bool in_space, int sliding_steps) {
     const Mesh flat = disk(disk_rings_for_triangles(triangles));
     const Eigen::VectorXcd z = complex_positions(flat);
@@ -36,7 +37,8 @@ double error_of(int triangles, bool in_space, int sliding_steps) {
             mesh.positions.row(v) << w.real(), w.imag();
         }
     }
-    // Faces seen from outside the sphere are counter-clockwise for the lower half only if mirrored: keep the disk's own.
+    // Faces seen from outside the sphere are counter-clockwise for the lower half only if mirrored: keep the disk's
+    // own.
     RoundDiskOptions options;
     options.sliding_steps = sliding_steps;
     const Surface surface(mesh);
@@ -51,16 +53,20 @@ double error_of(int triangles, bool in_space, int sliding_steps) {
     Complex a = z[nearest];
     for (int step = 0; step < 60; ++step) {  // Gauss-Newton on a by the mean of the residual at all vertices
         Complex t = 0, mean = 0;
-        for (int v = 0; v < flat.vertex_count(); ++v) t += chart.vertices[v] * std::conj((z[v] - a) / (1.0 - std::conj(a) * z[v]));
+        for (int v = 0; v < flat.vertex_count(); ++v)
+            t += chart.vertices[v] * std::conj((z[v] - a) / (1.0 - std::conj(a) * z[v]));
         t /= std::abs(t);
-        for (int v = 0; v < flat.vertex_count(); ++v) mean += chart.vertices[v] * std::conj(t) - (z[v] - a) / (1.0 - std::conj(a) * z[v]);
+        for (int v = 0; v < flat.vertex_count(); ++v)
+            mean += chart.vertices[v] * std::conj(t) - (z[v] - a) / (1.0 - std::conj(a) * z[v]);
         a -= mean / static_cast<double>(flat.vertex_count());
     }
     Complex t = 0;
-    for (int v = 0; v < flat.vertex_count(); ++v) t += chart.vertices[v] * std::conj((z[v] - a) / (1.0 - std::conj(a) * z[v]));
+    for (int v = 0; v < flat.vertex_count(); ++v)
+        t += chart.vertices[v] * std::conj((z[v] - a) / (1.0 - std::conj(a) * z[v]));
     t /= std::abs(t);
     double error = 0;
-    for (int v = 0; v < flat.vertex_count(); ++v) error = std::max(error, std::abs(chart.vertices[v] - t * (z[v] - a) / (1.0 - std::conj(a) * z[v])));
+    for (int v = 0; v < flat.vertex_count(); ++v)
+        error = std::max(error, std::abs(chart.vertices[v] - t * (z[v] - a) / (1.0 - std::conj(a) * z[v])));
     return error;
 }
 

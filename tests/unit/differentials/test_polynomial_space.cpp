@@ -14,7 +14,8 @@ TEST(PolynomialSpace, IsOrthonormalOnTheDisk) {
     const PolynomialSpace space(6, 6);
     const Eigen::MatrixXcd values = space.evaluate({chart.positions, chart.derivatives});
     Eigen::MatrixXcd gram = Eigen::MatrixXcd::Zero(7, 7);
-    for (int s = 0; s < values.rows(); ++s) gram += surface.operators.weights[s] * values.row(s).adjoint() * values.row(s);
+    for (int s = 0; s < values.rows(); ++s)
+        gram += surface.operators.weights[s] * values.row(s).adjoint() * values.row(s);
     EXPECT_LT((gram - Eigen::MatrixXcd::Identity(7, 7)).cwiseAbs().maxCoeff(), 2e-3);
 }
 

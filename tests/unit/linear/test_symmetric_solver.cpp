@@ -94,7 +94,8 @@ TEST(SymmetricSolver, SolvesNearbyMatricesWithAnOldFactor) {
     solver.factorize();
     Eigen::MatrixXd x = solver.solve(rhs);
     std::mt19937 random(1);
-    for (Eigen::Index i = 0; i < 400; ++i) solver.matrix().coeffRef(i, i) += 1e-3 * static_cast<double>(random()) / random.max();
+    for (Eigen::Index i = 0; i < 400; ++i)
+        solver.matrix().coeffRef(i, i) += 1e-3 * static_cast<double>(random()) / random.max();
     ASSERT_TRUE(solver.solve_near(rhs, x, 1e-12, 12));
     const Eigen::MatrixXd exact = dense(std::as_const(solver).matrix()).ldlt().solve(rhs);
     EXPECT_LT((x - exact).norm(), 1e-10 * exact.norm());

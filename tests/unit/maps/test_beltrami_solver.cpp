@@ -11,7 +11,9 @@ namespace {
 
 using test::complex_positions;
 
-Eigen::VectorXcd constant(const Surface& s, Complex nu) { return Eigen::VectorXcd::Constant(s.operators.sample_count(), nu); }
+Eigen::VectorXcd constant(const Surface& s, Complex nu) {
+    return Eigen::VectorXcd::Constant(s.operators.sample_count(), nu);
+}
 
 TEST(BeltramiSolver, ReproducesAffineMapsOfAnyCoefficient) {
     for (const Mesh& mesh : {test::jittered_square(8), test::quad_square(6, 0.3), test::mixed_square(7)}) {
@@ -46,7 +48,8 @@ TEST(BeltramiSolver, DecoupledAndCoupledFormsAgree) {
     // One interior vertex that slides along a fixed line through its own solution must stay there.
     const Mesh mesh = test::jittered_square(8);
     const Surface surface(mesh);
-    const BoundaryCondition boundary = test::boundary_values(surface, [](Complex z) { return z * z + 0.5 * std::conj(z); });
+    const BoundaryCondition boundary =
+        test::boundary_values(surface, [](Complex z) { return z * z + 0.5 * std::conj(z); });
     Eigen::VectorXcd nu(surface.operators.sample_count());
     for (int s = 0; s < nu.size(); ++s) nu[s] = std::polar(0.6, 0.37 * s);
     std::vector<Freedom> freedom = freedoms(boundary, surface);
@@ -94,7 +97,8 @@ TEST(BeltramiSolver, NamesVerticesThatNothingHolds) {
     both.positions.resize(32, 2);
     both.positions.topRows(16) = mesh.positions;
     both.positions.bottomRows(16) = mesh.positions.rowwise() + Eigen::RowVector2d(3, 0);
-    for (int f = 0; f < mesh.face_count(); ++f) both.faces.add({mesh.faces[f][0] + 16, mesh.faces[f][1] + 16, mesh.faces[f][2] + 16});
+    for (int f = 0; f < mesh.face_count(); ++f)
+        both.faces.add({mesh.faces[f][0] + 16, mesh.faces[f][1] + 16, mesh.faces[f][2] + 16});
     const Surface surface(both);
     BoundaryCondition pins;
     pins.pin(0, 0.0);
@@ -119,7 +123,8 @@ TEST(Harmonic, IsSecondOrderAccurate) {
         const auto exact = [](Complex z) { return Complex(std::real(z * z * z), std::imag(z * z * z * z)); };
         const Eigen::VectorXcd f = harmonic_map(surface, test::boundary_values(surface, exact));
         double error = 0;
-        for (int v = 0; v < mesh.vertex_count(); ++v) error = std::max(error, std::abs(f[v] - exact(complex_positions(mesh)[v])));
+        for (int v = 0; v < mesh.vertex_count(); ++v)
+            error = std::max(error, std::abs(f[v] - exact(complex_positions(mesh)[v])));
         if (last > 0) {
             EXPECT_GT(std::log2(last / error), 1.7);
         }
@@ -160,7 +165,9 @@ TEST(Lscm, ReproducesSimilaritiesAndIsFreeToPin) {
     BoundaryCondition pins;
     pins.pin(3, Complex(0, 2) * z[3] + 1.0);
     pins.pin(50, Complex(0, 2) * z[50] + 1.0);
-    EXPECT_LT((least_squares_conformal_map(surface, pins) - (Complex(0, 2) * z.array() + 1.0).matrix()).cwiseAbs().maxCoeff(), 1e-10);
+    EXPECT_LT(
+        (least_squares_conformal_map(surface, pins) - (Complex(0, 2) * z.array() + 1.0).matrix()).cwiseAbs().maxCoeff(),
+        1e-10);
     EXPECT_LT(distortion(surface.operators, least_squares_conformal_map(surface, {})).max, 1e-10);
     BoundaryCondition one;
     one.pin(3, 1.0);

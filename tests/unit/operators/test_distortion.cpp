@@ -14,8 +14,10 @@ namespace {
 
 using test::complex_positions;
 
-/// |μ| of the linear map between two triangles in space from singular values, with the sign of orientation: independent of ∂, ∂̄.
-double abs_mu_by_singular_values(const Eigen::Matrix<double, 3, 2>& source, const Eigen::Matrix<double, 3, 2>& image, double side) {
+/// |μ| of the linear map between two triangles in space from singular values, with the sign of orientation: independent
+/// of ∂, ∂̄.
+double abs_mu_by_singular_values(const Eigen::Matrix<double, 3, 2>& source, const Eigen::Matrix<double, 3, 2>& image,
+                                 double side) {
     const auto in_plane = [](const Eigen::Matrix<double, 3, 2>& edges) {
         Eigen::Matrix<double, 3, 2> frame;
         frame.col(0) = edges.col(0).normalized();
@@ -31,7 +33,8 @@ double abs_mu_by_singular_values(const Eigen::Matrix<double, 3, 2>& source, cons
 TEST(Distortion, AgreesWithSingularValues) {
     const Mesh mesh = test::bump(400);
     const Operators o = operators(mesh);
-    const Eigen::VectorXcd f = complex_positions(mesh).unaryExpr([](Complex z) { return z + 0.2 * z * z + 0.3 * std::conj(z); });
+    const Eigen::VectorXcd f =
+        complex_positions(mesh).unaryExpr([](Complex z) { return z + 0.2 * z * z + 0.3 * std::conj(z); });
     const Distortion d = distortion(o, f);
     for (int t = 0; t < mesh.face_count(); ++t) {
         const auto v = mesh.faces[t];
@@ -129,7 +132,8 @@ TEST(Distortion, PerCornerSeesTheSameAsPerVertexWithoutSeams) {
     const Operators o = operators(mesh);
     Positions image(mesh.vertex_count(), 2), corners(mesh.faces.corner_count(), 2);
     for (int v = 0; v < mesh.vertex_count(); ++v)
-        image.row(v) << mesh.positions(v, 0) + 0.3 * mesh.positions(v, 1) * mesh.positions(v, 1), 0.7 * mesh.positions(v, 1);
+        image.row(v) << mesh.positions(v, 0) + 0.3 * mesh.positions(v, 1) * mesh.positions(v, 1),
+            0.7 * mesh.positions(v, 1);
     for (int c = 0; c < corners.rows(); ++c) corners.row(c) = image.row(mesh.faces.vertices()[c]);
     const Distortion by_vertex = distortion(o, image), by_corner = distortion(per_corner(o, mesh.faces), corners);
     EXPECT_EQ(by_vertex.mu, by_corner.mu);

@@ -77,8 +77,10 @@ TEST(Operators, FromLengthsEqualThoseOfTheSurface) {
     for (const auto& [a, b] : topology(mesh).edges) lengths.push_back({b, a, (mesh.point(a) - mesh.point(b)).norm()});
     const Operators of_lengths = operators_from_lengths(mesh, lengths), of_surface = operators(mesh);
     for (std::size_t i = 0; i < of_surface.gradients.size(); ++i)
-        EXPECT_NEAR(std::abs(of_lengths.gradients[i] - of_surface.gradients[i]), 0, 1e-9 * std::abs(of_surface.gradients[i]));
-    for (int s = 0; s < of_surface.sample_count(); ++s) EXPECT_NEAR(of_lengths.weights[s], of_surface.weights[s], 1e-11 * of_surface.weights[s]);
+        EXPECT_NEAR(std::abs(of_lengths.gradients[i] - of_surface.gradients[i]), 0,
+                    1e-9 * std::abs(of_surface.gradients[i]));
+    for (int s = 0; s < of_surface.sample_count(); ++s)
+        EXPECT_NEAR(of_lengths.weights[s], of_surface.weights[s], 1e-11 * of_surface.weights[s]);
 }
 
 TEST(Operators, LengthsThatCannotBeAreNamed) {

@@ -10,7 +10,8 @@ namespace beltrami {
 namespace {
 
 /// The c-step for μ on a disk mesh, summed over every sample.
-DualProblem problem_of(const Surface& surface, const Chart& chart, const DifferentialSpace& space, const Eigen::VectorXcd& mu) {
+DualProblem problem_of(const Surface& surface, const Chart& chart, const DifferentialSpace& space,
+                       const Eigen::VectorXcd& mu) {
     DualProblem problem;
     problem.basis = space.evaluate({chart.positions, chart.derivatives});
     problem.complex_coefficients = space.complex_coefficients();
@@ -30,9 +31,7 @@ struct Setting {
     PolynomialSpace space{6, 6};
     Eigen::VectorXcd exact = Eigen::VectorXcd::Zero(7);
 
-    Setting() {
-        exact << 1.0, Complex(0.3, 0.2), -0.2, 0, Complex(0, 0.1), 0, 0;
-    }
+    Setting() { exact << 1.0, Complex(0.3, 0.2), -0.2, 0, Complex(0, 0.1), 0, 0; }
     Eigen::VectorXcd teichmueller(double k) const {
         const Eigen::VectorXcd phi = space.combination({chart.positions, chart.derivatives}, exact);
         return k * phi.conjugate().cwiseQuotient(phi.cwiseAbs().cast<Complex>());
@@ -64,7 +63,9 @@ TEST(DualStep, IsTheMaximum) {
     EXPECT_NEAR(best, solution.pairing / solution.norm, 1e-12);
     std::srand(7);
     for (int trial = 0; trial < 200; ++trial)
-        EXPECT_LE(value(solution.coefficients + std::pow(10.0, -trial % 5) * Eigen::VectorXcd::Random(7) * solution.coefficients.norm()), best + 1e-13);
+        EXPECT_LE(value(solution.coefficients +
+                        std::pow(10.0, -trial % 5) * Eigen::VectorXcd::Random(7) * solution.coefficients.norm()),
+                  best + 1e-13);
 }
 
 TEST(DualStep, CorrectionMakesACoarseQuadratureExact) {
@@ -78,11 +79,13 @@ TEST(DualStep, CorrectionMakesACoarseQuadratureExact) {
     DualProblem coarse = fine;
     coarse.basis = setting.space.evaluate(clusters.points);
     coarse.weights = Eigen::VectorXd::Zero(coarse.basis.rows());
-    for (int s = 0; s < mu.size(); ++s) coarse.weights[clusters.cluster[s]] += clusters.squared[s] * (1 + std::norm(mu[s])) / (1 - std::norm(mu[s]));
+    for (int s = 0; s < mu.size(); ++s)
+        coarse.weights[clusters.cluster[s]] += clusters.squared[s] * (1 + std::norm(mu[s])) / (1 - std::norm(mu[s]));
     Eigen::VectorXcd c = solve_dual(coarse, {}).coefficients;
     const double uncorrected = (c / c.norm() - exact / exact.norm()).norm();
     for (int round = 0; round < 4; ++round) {
-        coarse.correction = dual_gradient(fine.basis, fine.weights, fine.basis * c) - dual_gradient(coarse.basis, coarse.weights, coarse.basis * c);
+        coarse.correction = dual_gradient(fine.basis, fine.weights, fine.basis * c) -
+                            dual_gradient(coarse.basis, coarse.weights, coarse.basis * c);
         c = solve_dual(coarse, c).coefficients;
     }
     EXPECT_LT(coarse.basis.rows(), 300);
@@ -91,7 +94,8 @@ TEST(DualStep, CorrectionMakesACoarseQuadratureExact) {
 
 TEST(DualStep, NothingToSee) {
     const Setting setting;
-    const DualProblem problem = problem_of(setting.surface, setting.chart, setting.space, Eigen::VectorXcd::Zero(setting.surface.operators.sample_count()));
+    const DualProblem problem = problem_of(setting.surface, setting.chart, setting.space,
+                                           Eigen::VectorXcd::Zero(setting.surface.operators.sample_count()));
     EXPECT_EQ(solve_dual(problem, {}).pairing, 0.0);
 }
 

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <numeric>
 
-#include <beltrami/mesh/error.h>
-#include <beltrami/mesh/parallel.h>
 #include <beltrami/conformal/boundary_values.h>
 #include <beltrami/maps/beltrami_solver.h>
+#include <beltrami/mesh/error.h>
+#include <beltrami/mesh/parallel.h>
 #include <beltrami/teichmuller/extremal_map.h>
 
 #include "support/meshes.h"
@@ -39,7 +39,8 @@ TEST(ExtremalMap, DoesNotDependOnPlaceAndScale) {
     for (const double scale : {1e-6, 1.0, 1e6}) {
         Problem moved;
         for (int v = 0; v < moved.mesh.vertex_count(); ++v)
-            moved.mesh.positions.row(v) = (scale * (rotation * moved.mesh.point(v) + Eigen::Vector3d(10, -20, 5))).transpose();
+            moved.mesh.positions.row(v) =
+                (scale * (rotation * moved.mesh.point(v) + Eigen::Vector3d(10, -20, 5))).transpose();
         for (auto& [v, image] : moved.values) image = 7.0 * scale * std::polar(1.0, 2.0) * image + 3.0 * scale;
         EXPECT_NEAR(moved.solve().k / k, 1, 1e-8) << scale;
     }
@@ -52,7 +53,8 @@ TEST(ExtremalMap, DoesNotDependOnThePlaceInThePlane) {
     for (const double scale : {1e-6, 1e6}) {
         Problem moved = flat;
         for (int v = 0; v < moved.mesh.vertex_count(); ++v) {
-            const Complex z = scale * (std::polar(1.0, 1.0) * Complex(moved.mesh.positions(v, 0), moved.mesh.positions(v, 1)) + 5.0);
+            const Complex z =
+                scale * (std::polar(1.0, 1.0) * Complex(moved.mesh.positions(v, 0), moved.mesh.positions(v, 1)) + 5.0);
             moved.mesh.positions.row(v) << z.real(), z.imag(), 0;
         }
         EXPECT_NEAR(moved.solve().k / k, 1, 1e-8) << scale;
@@ -67,7 +69,8 @@ TEST(ExtremalMap, DoesNotDependOnNumbering) {
     for (std::size_t i = 0; i < order.size(); ++i) std::swap(order[i], order[(i * 7919 + 13) % order.size()]);
     Problem renumbered;
     renumbered.mesh.faces = {};
-    for (std::size_t v = 0; v < order.size(); ++v) renumbered.mesh.positions.row(order[v]) = original.mesh.positions.row(static_cast<int>(v));
+    for (std::size_t v = 0; v < order.size(); ++v)
+        renumbered.mesh.positions.row(order[v]) = original.mesh.positions.row(static_cast<int>(v));
     for (int f = original.mesh.face_count() - 1; f >= 0; --f) {
         const auto v = original.mesh.faces[f];
         renumbered.mesh.faces.add({order[v[2]], order[v[0]], order[v[1]]});
@@ -163,7 +166,8 @@ TEST(ExtremalMap, WhatItCannotDoIsAnErrorWithItsCause) {
     EXPECT_EQ(cause_of([&] { extremal_map(surface, inside, options); }), Cause::bad_option);
     options = {};
     options.progress = [](int, double) { return false; };
-    EXPECT_EQ(cause_of([&] { extremal_map(surface, test::boundary_values(surface, test::three_lobes), options); }), Cause::cancelled);
+    EXPECT_EQ(cause_of([&] { extremal_map(surface, test::boundary_values(surface, test::three_lobes), options); }),
+              Cause::cancelled);
 }
 
 TEST(ExtremalMap, AnIterationLimitIsSaid) {
