@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <optional>
+#include <string_view>
 
 #include <beltrami/io/number_lists.h>
 #include <beltrami/mesh/error.h>
@@ -9,6 +10,8 @@
 namespace beltrami::cli {
 
 namespace {
+
+constexpr std::string_view kPolygon = "polygon:";
 
 /// The numbers of "a,b,…"; nothing if it is not a list of exactly so many.
 std::optional<std::vector<double>> numbers(std::string_view text, std::size_t count) {
@@ -53,47 +56,74 @@ void BoundaryOptions::add_to(CLI::App& app) {
         ->type_name("FILE");
 }
 
-BoundaryCondition BoundaryOptions::outer_loop(const Surface& source) const {
-    const BoundaryPlacement placement{start_,
-                                      speed_ == "conformal" ? BoundarySpeed::conformal : BoundarySpeed::arclength};
-    const std::size_t colon = spec_.find(':');
-    const std::string kind = spec_.substr(0, colon), rest = colon == std::string::npos ? "" : spec_.substr(colon + 1);
-    const bool rectangle = kind == "rectangle";
-    if (!corners_.empty() && !rectangle)
-        throw Error(Cause::bad_option, "--corners belongs to --boundary rectangle:W,H");
-    if (kind == "disk") {
-        if (colon == std::string::npos) return boundary_to_disk(source, 0.0, placement);
-        if (const auto amplitude = numbers(rest, 1)) return boundary_to_disk(source, (*amplitude)[0], placement);
-        throw Error(Cause::bad_option, "--boundary " + spec_ + " is not disk or disk:A with a number A");
-    }
-    if (rectangle) {
-        std::optional<std::array<int, 4>> corners;
-        if (!corners_.empty()) corners = {corners_[0], corners_[1], corners_[2], corners_[3]};
-        if (const auto size = numbers(rest, 2))
-            return boundary_to_rectangle(source, (*size)[0], (*size)[1], corners, placement);
-        throw Error(Cause::bad_option, "--boundary " + spec_ + " is not rectangle:W,H with two numbers");
-    }
-    if (kind == "polygon" && !rest.empty()) {
-        std::vector<Complex> polygon;
-        for (const auto& row : read_rows(rest, 2, "a point of the polygon")) polygon.emplace_back(row[0], row[1]);
-        return boundary_to_polygon(source, polygon, placement);
-    }
-    throw Error(Cause::bad_option, "--boundary " + spec_ + " is not known",
-                "give disk, disk:A, rectangle:W,H or polygon:FILE");
+std::string BoundaryOptions::polygon_file() const {
+    return spec_.starts_with(kPolygon) ? spec_.substr(kPolygon.size()) : "";
 }
 
-BoundaryCondition BoundaryOptions::read(const Surface& source) const {
-    BoundaryCondition boundary;
+std::vector<NamedFile> BoundaryOptions::inputs() const {
+    return {{"--boundary", polygon_file()}, {"--pin", pin_file_}};
+}
+
+void BoundaryOptions::parse_spec() {
+    const std::size_t colon = spec_.find(':');
+    const std::string kind = spec_.substr(0, colon), rest = colon == std::string::npos ? "" : spec_.substr(colon + 1);
+    if (!corners_.empty() && kind != "rectangle")
+        throw Error(Cause::bad_option, "--corners belongs to --boundary rectangle:W,H");
+    if (kind == "disk") {
+        target_ = Target::disk;
+        const auto amplitude = colon == std::string::npos ? std::vector<double>{0.0} : numbers(rest, 1);
+        if (!amplitude)
+            throw Error(Cause::bad_option, "--boundary " + spec_ + " is not disk or disk:A with a number A");
+        sizes_ = *amplitude;
+    } else if (kind == "rectangle") {
+        target_ = Target::rectangle;
+        const auto size = numbers(rest, 2);
+        if (!size) throw Error(Cause::bad_option, "--boundary " + spec_ + " is not rectangle:W,H with two numbers");
+        sizes_ = *size;
+    } else if (!polygon_file().empty()) {
+        target_ = Target::polygon;
+        for (const auto& row : read_rows(polygon_file(), 2, "a point of the polygon"))
+            polygon_.emplace_back(row[0], row[1]);
+    } else {
+        throw Error(Cause::bad_option, "--boundary " + spec_ + " is not known",
+                    "give disk, disk:A, rectangle:W,H or polygon:FILE");
+    }
+}
+
+void BoundaryOptions::load(const Mesh& source) {
     if (!spec_.empty()) {
-        boundary = outer_loop(source);
+        parse_spec();
     } else if (!corners_.empty() || start_) {
         throw Error(Cause::bad_option, "--corners and --start say nothing without --boundary");
     }
-    if (!pin_file_.empty()) {
-        const IndexedRows rows = read_indexed_rows(pin_file_, 1, source.mesh.vertex_count(), 2, "a pinned vertex");
-        for (Eigen::Index i = 0; i < rows.indices.rows(); ++i)
-            boundary.pin(rows.indices(i, 0), Complex(rows.values(i, 0), rows.values(i, 1)));
+    if (pin_file_.empty()) return;
+    const IndexedRows rows = read_indexed_rows(pin_file_, 1, source.vertex_count(), 2, "a pinned vertex");
+    for (Eigen::Index i = 0; i < rows.indices.rows(); ++i)
+        pins_.pin(rows.indices(i, 0), Complex(rows.values(i, 0), rows.values(i, 1)));
+}
+
+BoundaryCondition BoundaryOptions::outer_loop(const Surface& source) const {
+    const BoundaryPlacement placement{start_,
+                                      speed_ == "conformal" ? BoundarySpeed::conformal : BoundarySpeed::arclength};
+    switch (target_) {
+        case Target::none:
+            return {};
+        case Target::disk:
+            return boundary_to_disk(source, sizes_[0], placement);
+        case Target::rectangle: {
+            std::optional<std::array<int, 4>> corners;
+            if (!corners_.empty()) corners = {corners_[0], corners_[1], corners_[2], corners_[3]};
+            return boundary_to_rectangle(source, sizes_[0], sizes_[1], corners, placement);
+        }
+        case Target::polygon:
+            return boundary_to_polygon(source, polygon_, placement);
     }
+    return {};
+}
+
+BoundaryCondition BoundaryOptions::values(const Surface& source) const {
+    BoundaryCondition boundary = outer_loop(source);
+    for (std::size_t i = 0; i < pins_.vertices.size(); ++i) boundary.pin(pins_.vertices[i], pins_.images[i]);
     validate(boundary, source);
     return boundary;
 }

@@ -11,6 +11,8 @@
 #include <beltrami/mesh/error.h>
 #include <beltrami/mesh/parallel.h>
 
+#include "words.h"
+
 namespace beltrami::cli {
 
 const char* const kExitCodes =
@@ -51,6 +53,12 @@ void CommonOptions::add_to(CLI::App& app) {
         ->check(CLI::Range(1, 1024));
 }
 
+void CommonOptions::check_files(const std::vector<NamedFile>& inputs, std::vector<NamedFile> outputs) const {
+    outputs.push_back({"--json", json});
+    outputs.push_back({"--report", report});
+    cli::check_files(inputs, outputs);
+}
+
 Mesh load(const std::string& path, std::vector<std::string>& warnings) {
     LoadedMesh loaded = read_mesh(path);
     warnings.insert(warnings.end(), loaded.warnings.begin(), loaded.warnings.end());
@@ -71,7 +79,10 @@ void finish(const Record& record, const CommonOptions& common, const std::string
     }
     if (common.may_print()) {
         fmt::print("{}", to_table(record, method));
-        if (record.solve) fmt::print("{} after {} iterations\n", record.solve->termination, record.solve->iterations);
+        if (record.solve)
+            fmt::print("{} after {}\n", record.solve->termination,
+                       counted(record.solve->iterations, "iteration", "iterations"));
+        fmt::print("{}", to_sentence(record));
         for (const std::string& file : files)
             if (!file.empty() && file != "-") fmt::print("wrote {}\n", file);
     }

@@ -7,15 +7,18 @@
 #include <beltrami/mesh/error.h>
 #include <beltrami/report/record.h>
 
+#include "files.h"
+
 namespace beltrami::cli {
 
 /// What every subcommand offers: where the record goes, how much is said, how many threads.
 struct CommonOptions {
     std::string json, report;
     bool quiet = false;
-    int threads = 0;
 
     void add_to(CLI::App& app);
+    /// check_files() of the inputs and the outputs, --json and --report among these.
+    void check_files(const std::vector<NamedFile>& inputs, std::vector<NamedFile> outputs = {}) const;
     /// Whether anything beyond the terminal wants the record.
     bool wants_record() const { return !json.empty() || !report.empty(); }
     /// Whether words may go to standard output (the record may own it).
@@ -44,7 +47,8 @@ Mesh load(const std::string& path, std::vector<std::string>& warnings);
 /// Adds the diagnosis' warnings.
 void add_findings(const std::vector<Finding>& findings, std::vector<std::string>& warnings);
 
-/// Writes the record where the options want it; prints the table, the warnings and the names of the files otherwise.
+/// Writes the record where the options want it; prints the table, what its bounds say, the warnings and the names of
+/// the files otherwise.
 void finish(const Record& record, const CommonOptions& common, const std::string& method,
             const std::vector<std::string>& files);
 

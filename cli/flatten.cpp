@@ -4,6 +4,7 @@
 #include "command.h"
 #include "output.h"
 #include "page.h"
+#include "words.h"
 
 namespace beltrami::cli {
 
@@ -23,6 +24,8 @@ class Flatten final : public Command {
     }
 
     int run() override {
+        output_.check();
+        common_.check_files({{"SOURCE", source_}}, {{"-o", output_.path()}});
         Record record;
         record.command = "flatten";
         Mesh mesh = load(source_, record.warnings);
@@ -43,10 +46,9 @@ class Flatten final : public Command {
             solve.iterations = flat.iterations;
             solve.factorizations = flat.factorizations;
             if (!flat.flipped.empty())
-                record.warnings.push_back(
-                    std::to_string(flat.flipped.size()) +
-                    " faces come out turned over: their edges were flipped on the way; the first is face " +
-                    std::to_string(flat.flipped[0]));
+                record.warnings.push_back(counted(flat.flipped.size(), "face comes", "faces come") +
+                                          " out turned over, with edges flipped on the way; the first is face " +
+                                          std::to_string(flat.flipped[0]));
         }
         solve.termination = to_string(Termination::converged);
         solve.seconds_total = seconds() - start;

@@ -1,9 +1,12 @@
 #include <fmt/format.h>
 
+#include <numbers>
+
 #include <beltrami/generate/quality.h>
 #include <beltrami/mesh/error.h>
 
 #include "command.h"
+#include "words.h"
 
 namespace beltrami::cli {
 
@@ -21,6 +24,7 @@ class Info final : public Command {
     int run() override {
         if (!common_.report.empty())
             throw Error(Cause::bad_option, "info has no map to report on", "use map or measure with --report");
+        common_.check_files({{"MESH", mesh_}});
         Record record;
         record.command = "info";
         const Mesh mesh = load(mesh_, record.warnings);
@@ -38,17 +42,19 @@ class Info final : public Command {
     void print(const Mesh& mesh, const SourceRecord& source) const {
         int quads = 0;
         for (int f = 0; f < mesh.face_count(); ++f) quads += mesh.faces.degree(f) == 4;
-        fmt::print("{}\n  {} vertices, {} faces ({} triangles, {} quads){}{}\n", mesh_, source.vertices, source.faces,
-                   source.faces - quads, quads, is_planar(mesh) ? ", planar" : "",
+        fmt::print("{}\n  {}, {} ({}, {}){}{}\n", mesh_, counted(source.vertices, "vertex", "vertices"),
+                   counted(source.faces, "face", "faces"), counted(source.faces - quads, "triangle", "triangles"),
+                   counted(quads, "quad", "quads"), is_planar(mesh) ? ", planar" : "",
                    mesh.texture ? ", with texture coordinates" : "");
         if (!source.shape) return;
-        fmt::print("  {} component(s), genus {}, {} boundary loop(s)\n", source.shape->components, source.shape->genus,
-                   source.shape->boundary_loops.size());
+        fmt::print("  {}, genus {}, {}\n", counted(source.shape->components, "component", "components"),
+                   source.shape->genus,
+                   counted(source.shape->boundary_loops.size(), "boundary loop", "boundary loops"));
         for (std::size_t l = 0; l < source.shape->boundary_loops.size(); ++l)
             fmt::print("  loop {}: length {:.6g}\n", l, source.shape->boundary_loops[l]);
         const MeshQuality q = quality(mesh);
         fmt::print("  smallest angle {:.2f} degrees, edges from {:.4g} to {:.4g}\n",
-                   q.min_angle * 180 / 3.14159265358979324, q.min_edge, q.max_edge);
+                   q.min_angle * 180 / std::numbers::pi, q.min_edge, q.max_edge);
     }
 
     std::string mesh_;

@@ -1,9 +1,7 @@
-#include <functional>
 #include <map>
-#include <numeric>
 
+#include <beltrami/baselines/baseline.h>
 #include <beltrami/io/number_lists.h>
-#include <beltrami/io/write_mesh.h>
 #include <beltrami/maps/timing.h>
 #include <beltrami/mesh/error.h>
 
@@ -53,27 +51,24 @@ class Map final : public Command {
     }
 
     int run() override {
+        check();
         Record record;
         record.command = "map";
         Mesh mesh = load(source_, record.warnings);
+        boundary_.load(mesh);
+        const std::vector<EdgeLength> lengths = load_metric(mesh);
         const double start = seconds();
-        const Surface source = with_metric(std::move(mesh));
+        const Surface source = with_metric(std::move(mesh), lengths);
         add_findings(source.findings, record.warnings);
         record.source = source_record(source);
-        const BoundaryCondition boundary = boundary_.read(source);
+        const BoundaryCondition boundary = boundary_.values(source);
 
         std::vector<PageMap> maps;
         std::vector<Iteration> history;
         Distortion distortion;
         Eigen::VectorXcd map;
-        Progress progress(!common_.quiet);
         if (method_ == "extremal") {
-            ExtremalOptions options;
-            options.progress = [&](int iteration, double k) {
-                progress.show(iteration, k);
-                return true;
-            };
-            ExtremalMap result = extremal_map(source, boundary, options);
+            ExtremalMap result = extremal(source, boundary);
             record.solve = solve_record(result, seconds() - start);
             record.map = map_record(result);
             record.warnings.insert(record.warnings.end(), result.warnings.begin(), result.warnings.end());
@@ -107,19 +102,38 @@ class Map final : public Command {
     }
 
   private:
-    Surface with_metric(Mesh mesh) const {
-        if (metric_.empty()) return Surface(std::move(mesh));
-        require_sound(mesh);
-        if (metric_ == "vt") {
-            Operators operators = operators_from_corners(mesh, texture_corners(mesh));
-            return Surface(std::move(mesh), std::move(operators));
-        }
-        const IndexedRows rows = read_indexed_rows(metric_, 2, mesh.vertex_count(), 1, "an edge of the metric");
+    void check() const {
+        output_.check();
+        std::vector<NamedFile> inputs = boundary_.inputs();
+        inputs.push_back({"SOURCE", source_});
+        if (metric_ != "vt") inputs.push_back({"--metric", metric_});
+        common_.check_files(inputs, {{"-o", output_.path()}});
+    }
+
+    std::vector<EdgeLength> load_metric(const Mesh& mesh) const {
         std::vector<EdgeLength> lengths;
+        if (metric_.empty() || metric_ == "vt") return lengths;
+        const IndexedRows rows = read_indexed_rows(metric_, 2, mesh.vertex_count(), 1, "an edge of the metric");
         for (Eigen::Index i = 0; i < rows.indices.rows(); ++i)
             lengths.push_back({rows.indices(i, 0), rows.indices(i, 1), rows.values(i, 0)});
-        Operators operators = operators_from_lengths(mesh, lengths);
-        return Surface(std::move(mesh), std::move(operators));
+        return lengths;
+    }
+
+    Surface with_metric(Mesh mesh, const std::vector<EdgeLength>& lengths) const {
+        if (metric_.empty()) return Surface(std::move(mesh));
+        require_sound(mesh);
+        Positions corners = metric_ == "vt" ? texture_corners(mesh) : corners_from_lengths(mesh, lengths);
+        return Surface(std::move(mesh), std::move(corners));
+    }
+
+    ExtremalMap extremal(const Surface& source, const BoundaryCondition& boundary) const {
+        Progress progress(!common_.quiet);  // gone before anything else is printed
+        ExtremalOptions options;
+        options.progress = [&](int iteration, double k) {
+            progress.show(iteration, k);
+            return true;
+        };
+        return extremal_map(source, boundary, options);
     }
 
     static MethodRecord run_baseline(const Surface& source, const BoundaryCondition& boundary,

@@ -1,11 +1,44 @@
+#include <beltrami/mesh/diagnosis.h>
 #include <beltrami/mesh/error.h>
+#include <beltrami/mesh/topology.h>
+#include <beltrami/operators/distortion.h>
 
 #include "command.h"
 #include "page.h"
+#include "words.h"
 
 namespace beltrami::cli {
 
 namespace {
+
+/// Defects that leave every face its shape, so that distortion is defined all the same.
+bool is_topological(Defect defect) {
+    switch (defect) {
+        case Defect::non_manifold_edge:
+        case Defect::non_manifold_vertex:
+        case Defect::inconsistent_orientation:
+        case Defect::not_orientable:
+        case Defect::duplicate_face:
+            return true;
+        default:
+            return false;
+    }
+}
+
+/// The record of a mesh whose faces all have a shape; of a mesh without topology, with warnings instead of it.
+/// @throw Error bad_mesh
+SourceRecord examine(const Mesh& mesh, std::vector<std::string>& warnings) {
+    const std::vector<Finding> findings = diagnose(mesh);
+    bool sound = true;
+    for (const Finding& finding : findings) {
+        if (!finding.fatal) continue;
+        if (!is_topological(finding.defect))
+            throw Error(Cause::bad_mesh, finding.sentence, finding.next_step, finding.indices);
+        sound = false;
+    }
+    add_findings(findings, warnings);
+    return sound ? source_record(mesh, topology(mesh)) : source_record(mesh);
+}
 
 class Measure final : public Command {
   public:
@@ -20,30 +53,33 @@ class Measure final : public Command {
     }
 
     int run() override {
+        common_.check_files({{"SOURCE", source_}, {"IMAGE", image_}});
         Record record;
         record.command = "measure";
-        const Surface source(load(source_, record.warnings));
-        add_findings(source.findings, record.warnings);
-        record.source = source_record(source);
+        const Mesh source = load(source_, record.warnings);
+        record.source = examine(source, record.warnings);
         const Distortion d = image_.empty() ? to_texture(source) : to_mesh(source, record.warnings);
         record.map = map_record(d);
-        if (!d.flipped.empty())
-            record.warnings.push_back(std::to_string(d.flipped.size()) + " faces are flipped, the first is face " +
-                                      std::to_string(d.flipped[0]));
-        if (!d.degenerate.empty())
-            record.warnings.push_back(std::to_string(d.degenerate.size()) + " faces collapse, the first is face " +
-                                      std::to_string(d.degenerate[0]));
-        write_page(common_.report, page_mesh_ ? *page_mesh_ : source.mesh,
-                   {{"measured", image_positions_, d.face_abs_mu}}, {}, record, source_);
+        warn_of(d.flipped, "face is flipped", "faces are flipped", record.warnings);
+        warn_of(d.degenerate, "face collapses", "faces collapse", record.warnings);
+        write_page(common_.report, page_mesh_ ? *page_mesh_ : source, {{"measured", image_positions_, d.face_abs_mu}},
+                   {}, record, source_);
         finish(record, common_, "measured", {common_.json, common_.report});
         return 0;
     }
 
   private:
-    Distortion to_texture(const Surface& source) {
-        const Positions corners = texture_corners(source.mesh);
-        if (!common_.report.empty()) split_at_corners(source.mesh, corners);
-        return distortion(per_corner(source.operators, source.mesh.faces), corners);
+    static void warn_of(const std::vector<int>& faces, const char* one, const char* many,
+                        std::vector<std::string>& warnings) {
+        if (faces.empty()) return;
+        warnings.push_back(counted(faces.size(), one, many) + (faces.size() == 1 ? ": " : ", the first is ") + "face " +
+                           std::to_string(faces[0]));
+    }
+
+    Distortion to_texture(const Mesh& source) {
+        const Positions corners = texture_corners(source);
+        if (!common_.report.empty()) split_at_corners(source, corners);
+        return distortion(per_corner(operators(source), source.faces), corners);
     }
 
     /// For drawing, a map with seams needs one vertex per corner.
@@ -62,14 +98,14 @@ class Measure final : public Command {
         image_positions_ = corners;
     }
 
-    Distortion to_mesh(const Surface& source, std::vector<std::string>& warnings) {
+    Distortion to_mesh(const Mesh& source, std::vector<std::string>& warnings) {
         const Mesh image = load(image_, warnings);
-        if (image.vertex_count() != source.mesh.vertex_count() || image.faces != source.mesh.faces)
+        if (image.vertex_count() != source.vertex_count() || image.faces != source.faces)
             throw Error(Cause::bad_mesh, "SOURCE and IMAGE do not have the same vertices and faces in the same order",
                         "write both from one program without reordering");
         if (!image.positions.allFinite()) throw Error(Cause::bad_mesh, "IMAGE has coordinates that are not finite");
         image_positions_ = is_planar(image) ? Positions(image.positions.leftCols(2)) : image.positions;
-        return distortion(source.operators, image_positions_,
+        return distortion(operators(source), image_positions_,
                           image_positions_.cols() > 2 ? vertex_normals(image) : Positions());
     }
 

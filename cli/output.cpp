@@ -1,6 +1,8 @@
 #include "output.h"
 
+#include <beltrami/io/extension.h>
 #include <beltrami/io/write_mesh.h>
+#include <beltrami/mesh/error.h>
 
 #include "page.h"
 
@@ -12,6 +14,14 @@ void OutputOptions::add_to(CLI::App& app) {
         ->required()
         ->type_name("OUT");
     app.add_flag("--as-positions", as_positions_, "write the map as vertex positions (z = 0) instead of vt");
+}
+
+void OutputOptions::check() const {
+    const std::string extension = lower_case_extension(path_);
+    if (extension != ".obj" && extension != ".ply" && extension != ".off")
+        throw Error(Cause::bad_option,
+                    "-o " + path_ + ": the extension '" + extension + "' is none of .obj, .ply, .off",
+                    "name the output with one of these extensions");
 }
 
 void OutputOptions::write(const Mesh& source, const Eigen::VectorXcd& map, const Distortion& distortion) const {

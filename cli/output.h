@@ -11,6 +11,8 @@ class OutputOptions {
   public:
     void add_to(CLI::App& app);
     const std::string& path() const { return path_; }
+    /// @throw Error bad_option if the extension is that of no format
+    void check() const;
     /// Vertices and faces of the source in their order, with the map as vt (or as positions) and, in PLY, μ per face.
     void write(const Mesh& source, const Eigen::VectorXcd& map, const Distortion& distortion) const;
 

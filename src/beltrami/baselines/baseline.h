@@ -8,7 +8,8 @@
 
 namespace beltrami {
 
-/// Maps that others compute, with one signature, to compare extremal maps with.
+/// Maps that others compute, with one signature, to compare extremal maps with. The source is one component with a
+/// boundary.
 struct BaselineOptions {
     int max_iterations = 1000;
     /// Stop when √(part by which a step lowers the energy) is below this, for ARAP the part of the source area, for
@@ -32,12 +33,12 @@ struct BaselineMap {
 
 /// The harmonic map (Pinkall & Polthier 1993): cotangent weights on triangles.
 /// @pre every boundary vertex is prescribed
-/// @throw Error bad_boundary, not_solved
+/// @throw Error bad_mesh, bad_boundary, not_solved
 BaselineMap harmonic_baseline(const Surface& source, const BoundaryCondition& boundary,
                               const BaselineOptions& options = {});
 
 /// The least-squares conformal map (Lévy et al. 2002): two or more pins, or none; what is not pinned is free.
-/// @throw Error bad_boundary, not_solved
+/// @throw Error bad_mesh, bad_boundary, not_solved
 BaselineMap lscm_baseline(const Surface& source, const BoundaryCondition& boundary,
                           const BaselineOptions& options = {});
 
@@ -48,7 +49,7 @@ BaselineMap lscm_baseline(const Surface& source, const BoundaryCondition& bounda
 ///
 /// The energy compares lengths. Where the whole boundary is prescribed, hence the area of the image, the source is
 /// scaled to that area first; else lengths count as they are.
-/// @throw Error bad_boundary, not_solved, cancelled, bad_option
+/// @throw Error bad_mesh, bad_boundary, not_solved, cancelled, bad_option
 BaselineMap arap_baseline(const Surface& source, const BoundaryCondition& boundary,
                           const BaselineOptions& options = {});
 
@@ -57,7 +58,7 @@ BaselineMap arap_baseline(const Surface& source, const BoundaryCondition& bounda
 /// first map without folds among: the harmonic map where the whole boundary is prescribed, else the least-squares
 /// conformal one; Tutte's (1963) where the boundary is sent to a convex polygon or nothing is prescribed, onto a circle
 /// then; the first of these untangled.
-/// @throw Error bad_boundary, not_solved, cancelled, bad_option
+/// @throw Error bad_mesh, bad_boundary, not_solved, cancelled, bad_option
 BaselineMap mips_baseline(const Surface& source, const BoundaryCondition& boundary,
                           const BaselineOptions& options = {});
 

@@ -4,6 +4,7 @@
 
 #include <beltrami/maps/beltrami_solver.h>
 #include <beltrami/mesh/error.h>
+#include <beltrami/mesh/polygon.h>
 #include <beltrami/operators/distortion.h>
 
 namespace beltrami {
@@ -17,20 +18,22 @@ namespace detail {
 
 void check_baseline(const Surface& source, const BoundaryCondition& boundary, const BaselineOptions& options) {
     options.validate();
-    validate(boundary, source);
+    if (source.topology.components != 1)
+        throw Error(Cause::bad_mesh, "the mesh has " + std::to_string(source.topology.components) + " components",
+                    "keep one of them, or map each by itself");
     if (source.topology.boundary_loops.empty())
-        throw Error(Cause::bad_boundary, "a closed surface has no map to the plane without folds", "cut it open first");
+        throw Error(Cause::bad_mesh, "the mesh is a closed surface, which has no map to the plane without folds",
+                    "cut it open first");
+    validate(boundary, source);
 }
 
 double enclosed_area(const Surface& source, const BoundaryCondition& boundary) {
     const Eigen::VectorXcd images = prescribed_values(boundary, source);
     double area = 0;
     for (const auto& loop : source.topology.boundary_loops) {
-        const Complex origin = images[loop[0]];
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-            const Complex p = images[loop[i]] - origin, q = images[loop[(i + 1) % loop.size()]] - origin;
-            area += 0.5 * std::imag(std::conj(p) * q);
-        }
+        std::vector<Complex> polygon;
+        for (const int v : loop) polygon.push_back(images[v]);
+        area += signed_area(polygon);
     }
     return area;
 }
@@ -63,7 +66,8 @@ bool has_no_folds(const Surface& source, const Eigen::VectorXcd& map) {
 
 void warn_of_flips(const Surface& source, BaselineMap& result) {
     const std::size_t flipped = distortion(source.operators, result.map).flipped.size();
-    if (flipped) result.warnings.push_back(std::to_string(flipped) + " faces are flipped");
+    if (flipped)
+        result.warnings.push_back(std::to_string(flipped) + (flipped == 1 ? " face is" : " faces are") + " flipped");
 }
 
 }  // namespace detail

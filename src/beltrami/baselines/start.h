@@ -4,7 +4,8 @@
 
 namespace beltrami::detail {
 
-/// @throw Error bad_option, bad_boundary: options, boundary condition, and a boundary to unfold from
+/// @throw Error bad_option, bad_mesh, bad_boundary: options, one component with a boundary to unfold from, and the
+/// boundary condition
 void check_baseline(const Surface& source, const BoundaryCondition& boundary, const BaselineOptions& options);
 
 /// Area that the image of the boundary encloses, loops added with their orientation.

@@ -5,11 +5,11 @@
 #include <numbers>
 #include <string>
 
-#include <beltrami/conformal/polygon.h>
 #include <beltrami/conformal/round_disk.h>
 #include <beltrami/generate/planar_domains.h>
 #include <beltrami/maps/beltrami_solver.h>
 #include <beltrami/mesh/error.h>
+#include <beltrami/mesh/polygon.h>
 
 namespace beltrami {
 
@@ -19,7 +19,7 @@ constexpr double kTwoPi = 2 * std::numbers::pi;
 /// A polygon's corner that turns by more than this receives a vertex.
 constexpr double kCornerTurn = 10 * std::numbers::pi / 180;
 
-/// Boundary loop 0 from a given start, with the arc length of each vertex from it.
+/// Boundary loop 0 from a given start, with the arc length (in the metric) of each vertex from it.
 struct OuterLoop {
     std::vector<int> vertices;
     std::vector<double> arc;  ///< one more than vertices: the last is the total
@@ -32,18 +32,17 @@ OuterLoop outer_loop(const Surface& source, std::optional<int> start) {
     if (source.topology.boundary_loops.empty())
         throw Error(Cause::bad_boundary, "the surface is closed: it has no boundary to prescribe", "cut it open first");
     OuterLoop loop{source.topology.boundary_loops[0], {0.0}};
+    std::vector<double> lengths = source.boundary_edge_lengths[0];
     if (start) {
         const auto at = std::find(loop.vertices.begin(), loop.vertices.end(), *start);
         if (at == loop.vertices.end())
             throw Error(Cause::bad_boundary,
                         "the start vertex " + std::to_string(*start) + " is not on boundary loop 0",
                         "name a vertex of the outer boundary, counted from 0", {*start});
+        std::rotate(lengths.begin(), lengths.begin() + (at - loop.vertices.begin()), lengths.end());
         std::rotate(loop.vertices.begin(), at, loop.vertices.end());
     }
-    for (std::size_t i = 0; i < loop.size(); ++i)
-        loop.arc.push_back(
-            loop.arc.back() +
-            (source.mesh.point(loop.vertices[(i + 1) % loop.size()]) - source.mesh.point(loop.vertices[i])).norm());
+    for (std::size_t i = 0; i < loop.size(); ++i) loop.arc.push_back(loop.arc.back() + lengths[i]);
     return loop;
 }
 
@@ -255,20 +254,23 @@ BoundaryCondition boundary_to_polygon(const Surface& source, const std::vector<C
         }
     // Each real corner gets a vertex; in between parameters are stretched linearly, so that vertices keep their order.
     const std::vector<std::size_t> at = nearest_vertices(parameter, corner_parameter);
+    if (at.empty())
+        throw Error(Cause::bad_boundary,
+                    "the polygon has " + std::to_string(corners.size()) + " corners, the boundary only " +
+                        std::to_string(loop.size()) + " vertices",
+                    "refine the mesh");
     BoundaryCondition boundary;
     std::size_t piece = 0;
     for (std::size_t i = 0; i < loop.size(); ++i) {
         double t = parameter[i];
-        if (!at.empty()) {
-            while (piece + 1 < at.size() && at[piece + 1] <= i) ++piece;
-            const bool last = piece + 1 == at.size();
-            const double from = parameter[at[piece]], to = last ? 1.0 : parameter[at[piece + 1]];
-            const double image_from = corner_parameter[piece], image_to = last ? 1.0 : corner_parameter[piece + 1];
-            t = image_from + (image_to - image_from) * (t - from) / (to - from);
-            if (i == at[piece]) {
-                boundary.pin(loop.vertices[i], corners[piece]);
-                continue;
-            }
+        while (piece + 1 < at.size() && at[piece + 1] <= i) ++piece;
+        const bool last = piece + 1 == at.size();
+        const double from = parameter[at[piece]], to = last ? 1.0 : parameter[at[piece + 1]];
+        const double image_from = corner_parameter[piece], image_to = last ? 1.0 : corner_parameter[piece + 1];
+        t = image_from + (image_to - image_from) * (t - from) / (to - from);
+        if (i == at[piece]) {
+            boundary.pin(loop.vertices[i], corners[piece]);
+            continue;
         }
         const auto next = std::upper_bound(along.begin() + 1, along.end() - 1, t);
         const auto edge = static_cast<std::size_t>(next - along.begin()) - 1;

@@ -1,9 +1,11 @@
 #include <beltrami/conformal/flatten.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -12,6 +14,9 @@
 #include <beltrami/conformal/conformal_equivalence.h>
 #include <beltrami/conformal/flatten_layout.h>
 #include <beltrami/mesh/error.h>
+#include <beltrami/mesh/planar.h>
+#include <beltrami/mesh/polygon.h>
+#include <beltrami/mesh/quad_split.h>
 #include <beltrami/mesh/topology.h>
 
 namespace beltrami {
@@ -21,13 +26,13 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 constexpr int kMostSplitRounds = 40;
-constexpr double kSplitAngle = 0.8 * kPi;  // opposite a boundary edge: split it along with those that must be
-constexpr double kAngleSumSlack = 1e-6;    // radians, of the sum of prescribed angles
-constexpr double kSmallestSlack = 1e-14;   // of a triangle's longest side: below, it has no area
-constexpr double kSlackGiven = 1e-10;      // of the mean length
+constexpr double kSplitAngle = 0.8 * kPi;       // opposite a boundary edge: split it along with those that must be
+constexpr double kAngleSumSlack = 1e-6;         // radians, of the sum of prescribed angles
+constexpr double kSmallestSlack = 1e-14;        // of a triangle's longest side: below, it has no area
+constexpr double kSlackGiven = 1e-10;           // of the mean length
+constexpr double kLargestContradiction = 1e-4;  // of a triangle's longest side, by which the inequality may fail
 
-/// The outer loop of a surface that is one disk.
-std::vector<int> require_disk(const Mesh& surface) {
+Topology require_disk(const Mesh& surface) {
     if (surface.face_count() == 0) throw Error(Cause::bad_mesh, "the mesh has no faces", "flatten needs a surface");
     Topology shape = topology(surface);
     if (shape.components != 1)
@@ -43,75 +48,97 @@ std::vector<int> require_disk(const Mesh& surface) {
     if (shape.genus != 0)
         throw Error(Cause::bad_mesh, "the surface has genus " + std::to_string(shape.genus),
                     "cut its handles open before flattening");
-    for (const int v : surface.faces.vertices())
-        if (!surface.point(v).allFinite())
-            throw Error(Cause::bad_mesh, "vertex " + std::to_string(v) + " has a coordinate that is not finite",
-                        "repair the file", {v});
-    return std::move(shape.boundary_loops[0]);
+    return shape;
 }
 
-/// The quad's diagonal from corner 0 to 2 (true) or from 1 to 3.
-bool takes_first_diagonal(const Mesh& surface, std::span<const int> quad) {
-    const Eigen::Vector3d p[4] = {surface.point(quad[0]), surface.point(quad[1]), surface.point(quad[2]),
-                                  surface.point(quad[3])};
-    const auto folds = [&](int i) {  // the diagonal from corner i
-        const Eigen::Vector3d d = p[(i + 2) % 4] - p[i];
-        return (p[(i + 1) % 4] - p[i]).cross(d).dot(d.cross(p[(i + 3) % 4] - p[i])) < 0;
-    };
-    const bool first_folds = folds(0), second_folds = folds(1);
-    if (first_folds != second_folds) return second_folds;
-    return (p[2] - p[0]).squaredNorm() <= (p[3] - p[1]).squaredNorm();
+void require_corners(const Mesh& surface, const Positions& corners) {
+    if (corners.rows() != surface.faces.corner_count() || (corners.cols() != 2 && corners.cols() != 3))
+        throw Error(Cause::bad_mesh,
+                    "the metric is a matrix of " + std::to_string(corners.rows()) + " rows and " +
+                        std::to_string(corners.cols()) + " columns for " +
+                        std::to_string(surface.faces.corner_count()) + " face corners",
+                    "give one row a face corner, of two or three coordinates");
+    for (int f = 0; f < surface.face_count(); ++f)
+        if (!corners.middleRows(surface.faces.first_corner(f), surface.faces.degree(f)).allFinite())
+            throw Error(Cause::bad_mesh, "face " + std::to_string(f) + " has a corner whose place is not finite",
+                        "repair the positions or the metric", {f});
 }
 
-FaceList triangles_of(const Mesh& surface) {
-    FaceList triangles;
-    triangles.reserve(2 * surface.face_count(), 6 * surface.face_count());
-    for (int f = 0; f < surface.face_count(); ++f) {
-        const std::span<const int> c = surface.faces[f];
-        if (c.size() == 3) {
-            triangles.add(c);
-        } else if (takes_first_diagonal(surface, c)) {
-            triangles.add({c[0], c[1], c[2]});
-            triangles.add({c[0], c[2], c[3]});
-        } else {
-            triangles.add({c[1], c[2], c[3]});
-            triangles.add({c[1], c[3], c[0]});
-        }
-    }
-    return triangles;
+Eigen::Vector3d point_of(const Positions& corners, int corner) {
+    return {corners(corner, 0), corners(corner, 1), corners.cols() > 2 ? corners(corner, 2) : 0.0};
 }
 
-/// Edge lengths as logarithms relative to exp(log_unit), so that the size of the surface never matters.
+/// The surface in triangles, with edge lengths as logarithms relative to exp(log_unit), so that its size never matters.
 struct Metric {
+    FaceList triangles;
     std::vector<double> log_lengths;  // per triangle corner
     double log_unit = 0;
     double lengthened = 0;
 };
 
-Metric metric_of(const Mesh& surface, const FaceList& triangles) {
-    const std::vector<int>& v = triangles.vertices();
-    std::vector<double> lengths(v.size());
-    double mean = 0, missing = -1;
-    const auto length = [&](std::size_t from, std::size_t to) {
-        return (surface.point(v[to]) - surface.point(v[from])).stableNorm();
-    };
-    for (std::size_t c = 0; c < v.size(); c += 3) {
-        for (std::size_t k = 0; k < 3; ++k) mean += lengths[c + k] = length(c + k, c + (k + 1) % 3);
+/// Of faces that have the shapes of their corner points; where two differ about their edge, it has the mean length.
+Metric metric_of(const Mesh& surface, const Topology& shape, const Positions& corners) {
+    const auto point = [&](int corner) { return point_of(corners, corner); };
+    std::vector<double> edge_lengths(shape.edges.size(), -1);
+    for (int f = 0; f < surface.face_count(); ++f) {
+        const int first = surface.faces.first_corner(f), n = surface.faces.degree(f);
+        for (int i = 0; i < n; ++i) {
+            const double length = (point(first + (i + 1) % n) - point(first + i)).stableNorm();
+            double& known = edge_lengths[shape.corner_edges[first + i]];
+            known = known < 0 ? length : std::midpoint(known, length);  // an edge has two faces at most
+        }
     }
-    mean /= static_cast<double>(v.size());
+
+    Metric metric;
+    metric.triangles.reserve(2 * surface.face_count(), 6 * surface.face_count());
+    std::vector<double> lengths;
+    std::vector<int> triangle_faces;
+    lengths.reserve(static_cast<std::size_t>(6) * surface.face_count());
+    for (int f = 0; f < surface.face_count(); ++f) {
+        const std::span<const int> v = surface.faces[f];
+        const int first = surface.faces.first_corner(f), n = surface.faces.degree(f);
+        const auto add = [&](const std::array<int, 3>& triangle) {
+            metric.triangles.add({v[triangle[0]], v[triangle[1]], v[triangle[2]]});
+            triangle_faces.push_back(f);
+            for (int k = 0; k < 3; ++k) {
+                const int from = triangle[k], to = triangle[(k + 1) % 3];
+                lengths.push_back(to == (from + 1) % n ? edge_lengths[shape.corner_edges[first + from]]
+                                                       : (point(first + to) - point(first + from)).stableNorm());
+            }
+        };
+        if (n == 3) {
+            add({0, 1, 2});
+        } else {
+            for (const auto& half : split_quad({point(first), point(first + 1), point(first + 2), point(first + 3)}))
+                add(half);
+        }
+    }
+
+    double mean = 0, missing = 0;
+    for (const double length : lengths) mean += length;
+    mean /= static_cast<double>(lengths.size());
     if (!(mean > 0) || !std::isfinite(mean))
-        throw Error(Cause::bad_mesh, "the surface has no size", "all vertices of its faces coincide");
-    for (std::size_t c = 0; c < v.size(); c += 3) {
-        const double a = lengths[c], b = lengths[c + 1], d = lengths[c + 2];
-        const double longest = std::max({a, b, d});
-        const double slack = (a + b + d) - 2 * longest;
+        throw Error(Cause::bad_mesh, "the surface has no size", "all corners of its faces coincide");
+    std::vector<int> broken;
+    for (std::size_t t = 0; t < triangle_faces.size(); ++t) {
+        const double a = lengths[3 * t], b = lengths[3 * t + 1], c = lengths[3 * t + 2];
+        const double longest = std::max({a, b, c});
+        const double slack = (a + b + c) - 2 * longest;
+        if (slack < -kLargestContradiction * longest && (broken.empty() || broken.back() != triangle_faces[t]))
+            broken.push_back(triangle_faces[t]);
         if (!(slack > kSmallestSlack * longest)) missing = std::max(missing, kSlackGiven * mean - slack);
     }
-    Metric metric;
-    metric.lengthened = std::max(missing, 0.0);
+    if (!broken.empty()) {
+        const std::string sentence =
+            "the metric gives face " + std::to_string(broken[0]) +
+            (broken.size() > 1 ? " and " + std::to_string(broken.size() - 1) + " more" : "") +
+            " edges so unlike those of the neighbours that the mean lengths violate the triangle inequality";
+        throw Error(Cause::bad_mesh, sentence, "bring faces that share an edge to the same scale", std::move(broken));
+    }
+    metric.lengthened = missing;
     metric.log_unit = std::log(mean);
-    metric.log_lengths.resize(v.size());
-    for (std::size_t c = 0; c < v.size(); ++c)
+    metric.log_lengths.resize(lengths.size());
+    for (std::size_t c = 0; c < lengths.size(); ++c)
         metric.log_lengths[c] = std::log((lengths[c] + metric.lengthened) / mean);
     return metric;
 }
@@ -237,56 +264,95 @@ double boundary_length(const IntrinsicTriangulation& triangulation, const Eigen:
     return length;
 }
 
-double signed_area(Complex a, Complex b, Complex c) {
-    return std::imag(std::conj(b - a) * (c - a));
-}
-
 /// Faces with a corner that is turned over in the image and was not in the source.
-std::vector<int> flipped_faces(const Mesh& surface, const Eigen::VectorXcd& image) {
+std::vector<int> flipped_faces(const Mesh& surface, const Positions& corners, const Eigen::VectorXcd& image) {
+    const auto reflex = [&](int first, int i) {  // corner i of the quad whose first corner is given
+        const auto p = [&](int corner) { return point_of(corners, first + corner % 4); };
+        const Eigen::Vector3d normal = (p(2) - p(0)).cross(p(3) - p(1));
+        return (p(i + 1) - p(i)).cross(p(i + 3) - p(i)).dot(normal) <= 0;
+    };
     std::vector<int> flipped;
     for (int f = 0; f < surface.face_count(); ++f) {
         const std::span<const int> c = surface.faces[f];
-        const std::size_t n = c.size();
+        const int n = static_cast<int>(c.size());
         bool bad = false;
-        for (std::size_t i = 0; i < n && !bad; ++i) {
-            const int p = c[(i + n - 1) % n], v = c[i], q = c[(i + 1) % n];
-            if (signed_area(image[v], image[q], image[p]) > 0) continue;
-            const bool reflex = n == 4 && (surface.point(q) - surface.point(v))
-                                                  .cross(surface.point(p) - surface.point(v))
-                                                  .dot(face_vector_area(surface, f)) <= 0;
-            bad = !reflex;
+        for (int i = 0; i < n && !bad; ++i) {
+            const bool upright = signed_area(image[c[i]], image[c[(i + 1) % n]], image[c[(i + n - 1) % n]]) > 0;
+            bad = !upright && !(n == 4 && reflex(surface.faces.first_corner(f), i));
         }
         if (bad) flipped.push_back(f);
     }
     return flipped;
 }
 
+/// What flatten() works on.
+struct Task {
+    const Mesh& surface;
+    const Positions& corners;
+    const FlattenOptions& options;
+    ScaleFactorProblem problem;
+    Metric metric;
+    IntrinsicTriangulation triangulation;
+};
+
+Task prepare(const Mesh& surface, const Topology& shape, const Positions& corners, const FlattenOptions& options) {
+    require_corners(surface, corners);
+    ScaleFactorProblem problem = problem_of(surface, shape.boundary_loops[0], options);
+    Metric metric = metric_of(surface, shape, corners);
+    IntrinsicTriangulation triangulation(metric.triangles, surface.vertex_count(), std::move(metric.log_lengths));
+    return {surface, corners, options, std::move(problem), std::move(metric), std::move(triangulation)};
+}
+
 /// The surface's own coordinates, if it lies in the plane with all faces turned the same way and no branch points; else
 /// empty.
-Eigen::VectorXcd own_coordinates(const Mesh& surface, const FaceList& triangles, const IntrinsicTriangulation& metric,
-                                 const ScaleFactorProblem& problem, double& residual) {
-    if (!is_planar(surface)) return {};
-    int positive = 0, negative = 0;
-    Eigen::VectorXcd plane = Eigen::VectorXcd::Zero(surface.vertex_count());
-    for (const int v : triangles.vertices()) plane[v] = {surface.positions(v, 0), surface.positions(v, 1)};
+Eigen::VectorXcd own_coordinates(const Task& task, double& residual) {
+    if (!is_planar(task.surface)) return {};
+    Eigen::VectorXcd plane = planar_coordinates(task.surface);
+    const FaceList& triangles = task.metric.triangles;
+    std::vector<char> used(static_cast<std::size_t>(plane.size()), 0);
     for (int t = 0; t < triangles.size(); ++t) {
-        const double area = signed_area(plane[triangles[t][0]], plane[triangles[t][1]], plane[triangles[t][2]]);
-        positive += area > 0;
-        negative += area < 0;
+        const std::span<const int> v = triangles[t];
+        if (signed_area(plane[v[0]], plane[v[1]], plane[v[2]]) < 0) return {};
+        for (const int vertex : v) used[vertex] = 1;
     }
-    if (positive > 0 && negative > 0) return {};
-    Eigen::VectorXd defect = problem.target_angles;
-    const Eigen::VectorXd u = Eigen::VectorXd::Zero(surface.vertex_count());
-    for (int t = 0; t < metric.triangle_count(); ++t) {
-        const TriangleAngles triangle = metric.angles(t, u);
+    for (Eigen::Index v = 0; v < plane.size(); ++v)
+        if (!used[v]) plane[v] = 0;
+    Eigen::VectorXd defect = task.problem.target_angles;
+    const Eigen::VectorXd u = Eigen::VectorXd::Zero(plane.size());
+    for (int t = 0; t < triangles.size(); ++t) {
+        const TriangleAngles triangle = task.triangulation.angles(t, u);
         for (int k = 0; k < 3; ++k)
-            defect[metric.tail(IntrinsicTriangulation::previous(3 * t + k))] -= triangle.angles[k];
+            defect[task.triangulation.tail(IntrinsicTriangulation::previous(3 * t + k))] -= triangle.angles[k];
     }
     residual = 0;
     for (const double value : defect)
         if (!std::isnan(value)) residual = std::max(residual, std::abs(value));
     if (residual > 1) return {};  // angle sums are multiples of 2π here
-    return negative > 0 ? plane.conjugate().eval() : plane;
+    return plane;
+}
+
+Flattening run(Task task) {
+    const int vertices = task.surface.vertex_count();
+    const bool natural = task.options.boundary_angles.empty();
+    IntrinsicTriangulation& triangulation = task.triangulation;
+    const double source_boundary = boundary_length(triangulation, Eigen::VectorXd::Zero(vertices));
+    Flattening result;
+    result.lengthened = task.metric.lengthened;
+    result.flips = triangulation.make_delaunay();
+    const ScaleFactors factors = solve(triangulation, task.problem, task.options, result);
+    const bool solved =
+        factors.status == ScaleFactorStatus::converged || factors.status == ScaleFactorStatus::stagnated;
+    if (!solved || !factors.degenerate.empty()) refuse(factors, result);
+
+    const Layout layout = lay_out(triangulation, factors.u);
+    const double log_gauge =
+        natural ? 0 : std::log(source_boundary) - std::log(boundary_length(triangulation, factors.u));
+    result.layout_error = layout.error;
+    result.positions = layout.positions.head(vertices) * std::exp(task.metric.log_unit + log_gauge);
+    result.log_scale = Eigen::VectorXd::Zero(vertices);
+    for (const int v : task.surface.faces.vertices()) result.log_scale[v] = factors.u[v] + log_gauge;
+    result.flipped = flipped_faces(task.surface, task.corners, result.positions);
+    return result;
 }
 
 }  // namespace
@@ -299,42 +365,24 @@ void FlattenOptions::validate() const {
 
 Flattening flatten(const Mesh& surface, const FlattenOptions& options) {
     options.validate();
-    const std::vector<int> loop = require_disk(surface);
-    ScaleFactorProblem problem = problem_of(surface, loop, options);
-    const FaceList triangles = triangles_of(surface);
-    Metric metric = metric_of(surface, triangles);
-    IntrinsicTriangulation triangulation(triangles, surface.vertex_count(), std::move(metric.log_lengths));
-    Flattening result;
-
+    const Topology shape = require_disk(surface);
+    const Positions corners = corner_positions(surface);
+    Task task = prepare(surface, shape, corners, options);
     if (options.boundary_angles.empty()) {
-        result.positions = own_coordinates(surface, triangles, triangulation, problem, result.residual);
+        Flattening result;
+        result.positions = own_coordinates(task, result.residual);
         if (result.positions.size() > 0) {
             result.log_scale = Eigen::VectorXd::Zero(surface.vertex_count());
-            result.flipped = flipped_faces(surface, result.positions);
+            result.flipped = flipped_faces(surface, corners, result.positions);
             return result;
         }
     }
+    return run(std::move(task));
+}
 
-    const double source_boundary = boundary_length(triangulation, Eigen::VectorXd::Zero(surface.vertex_count()));
-    result.lengthened = metric.lengthened;
-    result.flips = triangulation.make_delaunay();
-    ScaleFactors factors = solve(triangulation, problem, options, result);
-    const bool solved =
-        factors.status == ScaleFactorStatus::converged || factors.status == ScaleFactorStatus::stagnated;
-    if (!solved || !factors.degenerate.empty()) refuse(factors, result);
-
-    const Layout layout = lay_out(triangulation, factors.u);
-    double log_gauge = 0;
-    if (!options.boundary_angles.empty())
-        log_gauge = std::log(source_boundary) - std::log(boundary_length(triangulation, factors.u));
-    result.layout_error = layout.error;
-    result.positions = layout.positions.head(surface.vertex_count()) * std::exp(metric.log_unit + log_gauge);
-    result.log_scale = factors.u.head(surface.vertex_count());
-    for (const int v : surface.faces.vertices()) problem.free[v] = 2;  // vertices with faces
-    for (int v = 0; v < surface.vertex_count(); ++v)
-        result.log_scale[v] = problem.free[v] == 2 ? result.log_scale[v] + log_gauge : 0;
-    result.flipped = flipped_faces(surface, result.positions);
-    return result;
+Flattening flatten(const Mesh& surface, const Positions& corners, const FlattenOptions& options) {
+    options.validate();
+    return run(prepare(surface, require_disk(surface), corners, options));
 }
 
 }  // namespace beltrami

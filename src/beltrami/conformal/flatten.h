@@ -42,8 +42,7 @@ struct Flattening {
 ///
 /// - The result depends on the surface only, not on how it is triangulated: edges are flipped to intrinsic Delaunay
 /// first.
-/// - A quad is split along its shorter diagonal (the other one if that folds it); a plane quad is not affected by the
-/// choice.
+/// - A quad is split by split_quad(); a plane quad is not affected by the choice.
 /// - Boundary edges cannot flip. Where a triangle would degenerate against one, a vertex is put on that edge, of scale
 ///   1 (or angle π), and the iteration goes on; these vertices are counted and not returned.
 /// - Triangles without area (or coinciding vertices) make all edges longer by about 1e-10 of their mean (Sharp, Crane
@@ -62,5 +61,14 @@ struct Flattening {
 ///        does not converge or boundary triangles stay degenerate (faces along the boundary are then far too large for
 ///        the curvature next to them)
 Flattening flatten(const Mesh& surface, const FlattenOptions& options = {});
+
+/// The same in a metric of its own, in which every face has the shape of its corners in @p corners, one point per face
+/// corner (#corners×2 or ×3), as operators_from_corners() takes it; the positions of the surface do not matter. Where
+/// the two faces of an edge differ about its length, through rounding or differently scaled texture seams, it has the
+/// mean length. Boundary edges keep the lengths of the metric, and so does the unit of length; log_scale is relative to
+/// the metric. A planar metric is not returned as it is but laid out anew, up to a rigid motion.
+/// @throw Error as above; also bad_mesh if @p corners has another shape or is not finite, and naming faces where mean
+///        lengths violate the triangle inequality (by less than 1e-4 they are mollified like triangles without area)
+Flattening flatten(const Mesh& surface, const Positions& corners, const FlattenOptions& options = {});
 
 }  // namespace beltrami

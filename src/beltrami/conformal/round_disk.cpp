@@ -8,7 +8,7 @@
 
 #include <beltrami/conformal/flatten.h>
 #include <beltrami/maps/beltrami_solver.h>
-#include <beltrami/mesh/error.h>
+#include <beltrami/mesh/planar.h>
 
 namespace beltrami {
 
@@ -76,17 +76,20 @@ BeltramiSolver dirichlet_solver(const Surface& source) {
 /// The tolerance to which a surface is flattened for a chart, whose own discretisation error is far larger.
 constexpr double kFlattenTolerance = 1e-8;
 
-/// An inner vertex deep inside: where the solution of −Δψ = 1, ψ = 0 on the boundary of the flattened surface is
-/// largest.
-int deepest_vertex(const Surface& source, const HarmonicFunctions& harmonic, const Eigen::VectorXcd& w) {
+/// A point deep inside the flattened surface: the inner vertex where the solution of −Δψ = 1, ψ = 0 on the boundary, is
+/// largest; without inner vertices, the middle of the largest face.
+Complex deep_point(const Surface& source, const HarmonicFunctions& harmonic, const Eigen::VectorXcd& w) {
     const Eigen::VectorXd squares = w.cwiseAbs2();
     const Eigen::VectorXd depth = harmonic.extend(squares) - squares;  // 4ψ, as Δ|w|² = 4
     int deepest = -1;
     for (const int v : source.mesh.faces.vertices())
         if (!source.topology.on_boundary[v] && (deepest < 0 || depth[v] > depth[deepest])) deepest = v;
-    if (deepest < 0)
-        throw Error(Cause::bad_mesh, "the surface has no vertex inside", "refine it, for instance by one subdivision");
-    return deepest;
+    if (deepest >= 0) return w[deepest];
+    const auto largest = std::max_element(source.operators.weights.begin(), source.operators.weights.end());
+    Complex middle = 0;
+    const auto face = source.operators.stencil(static_cast<int>(largest - source.operators.weights.begin()));
+    for (const int v : face) middle += w[v] / static_cast<double>(face.size());
+    return middle;
 }
 
 std::vector<double> vertex_areas(const Operators& operators) {
@@ -170,28 +173,20 @@ namespace {
 
 /// @param dirichlet may be null
 Chart compute_chart(const Surface& source, const BeltramiSolver* dirichlet, const RoundDiskOptions& options) {
+    require_disk(source);
     const Topology& topology = source.topology;
-    if (topology.components != 1 || topology.boundary_loops.size() != 1 || topology.genus != 0)
-        throw Error(Cause::bad_mesh,
-                    "the surface is not a disk: it has " + std::to_string(topology.components) + " component(s), " +
-                        std::to_string(topology.boundary_loops.size()) + " boundary loop(s) and genus " +
-                        std::to_string(topology.genus),
-                    "cut or fill it until one component with one boundary loop is left");
     const int n = source.mesh.vertex_count();
     Eigen::VectorXcd w(n);
     int factorizations = 0;
-    if (source.planar_metric) {
-        // Positions in the frame of the operators: a mesh seen from below is mirrored.
-        double area = 0;
-        for (int f = 0; f < source.mesh.face_count(); ++f) area += face_vector_area(source.mesh, f).z();
-        for (int v = 0; v < n; ++v)
-            w[v] = Complex(source.mesh.positions(v, 0), (area < 0 ? -1 : 1) * source.mesh.positions(v, 1));
+    if (source.in_plane()) {
+        w = planar_coordinates(source.mesh);
         const auto [centre, radius] = boundary_circle(source, w);
         if (radius > 0) return make_chart(source, (w.array() - centre) / radius, true);
     } else {
         FlattenOptions flatten_options;
         flatten_options.tolerance = kFlattenTolerance;
-        const Flattening flat = flatten(source.mesh, flatten_options);
+        const Flattening flat =
+            source.metric ? flatten(source.mesh, *source.metric, flatten_options) : flatten(source.mesh, flatten_options);
         w = flat.positions;
         factorizations += flat.factorizations;
     }
@@ -203,7 +198,7 @@ Chart compute_chart(const Surface& source, const BeltramiSolver* dirichlet, cons
         ++factorizations;
     }
     const HarmonicFunctions harmonic{source, *dirichlet};
-    const Complex pole = w[deepest_vertex(source, harmonic, w)];
+    const Complex pole = deep_point(source, harmonic, w);
     Eigen::VectorXd real = Eigen::VectorXd::Zero(n);
     for (const int v : loop) real[v] = -std::log(std::abs(w[v] - pole));
     const Eigen::VectorXcd h = harmonic.with_conjugate(harmonic.extend(real));

@@ -24,9 +24,8 @@ int PolynomialSpace::largest_degree(int sample_count) {
     return std::clamp(static_cast<int>(0.2 * std::sqrt(static_cast<double>(sample_count))), 4, 40);
 }
 
-std::unique_ptr<DifferentialSpace> PolynomialSpace::for_samples(int sample_count) {
-    const int largest = largest_degree(sample_count);
-    return std::make_unique<PolynomialSpace>(std::min(8, largest), largest);
+std::unique_ptr<DifferentialSpace> PolynomialSpace::starting_space(int largest_degree) {
+    return std::make_unique<PolynomialSpace>(std::min(8, largest_degree), largest_degree);
 }
 
 Eigen::MatrixXcd PolynomialSpace::evaluate(const ChartPoints& points) const {

@@ -14,8 +14,8 @@ class PolynomialSpace final : public DifferentialSpace {
 
     /// Largest degree that a mesh of so many samples resolves.
     static int largest_degree(int sample_count);
-    /// A space to start from and a largest degree for a mesh of so many samples.
-    static std::unique_ptr<DifferentialSpace> for_samples(int sample_count);
+    /// A space to start from, which can grow up to a degree.
+    static std::unique_ptr<DifferentialSpace> starting_space(int largest_degree);
 
     int size() const override { return degree_ + 1; }
     bool complex_coefficients() const override { return true; }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <beltrami/mesh/error.h>
+#include <beltrami/mesh/quad_split.h>
 
 namespace beltrami {
 namespace {
@@ -90,10 +91,9 @@ class Cutter {
         }
         if (below && !above) return;
         if (v.size() == 4 && above && below) {
-            const bool first =
-                (mesh_.point(v[0]) - mesh_.point(v[2])).norm() <= (mesh_.point(v[1]) - mesh_.point(v[3])).norm();
-            clip(face, first ? std::vector{0, 1, 2} : std::vector{0, 1, 3});
-            clip(face, first ? std::vector{0, 2, 3} : std::vector{1, 2, 3});
+            for (const auto& [a, b, c] :
+                 split_quad({mesh_.point(v[0]), mesh_.point(v[1]), mesh_.point(v[2]), mesh_.point(v[3])}))
+                clip(face, {a, b, c});
         } else {
             clip(face, v.size() == 4 ? std::vector{0, 1, 2, 3} : std::vector{0, 1, 2});
         }
@@ -132,11 +132,9 @@ class Cutter {
         } else if (original) {
             pieces = {{0, 1, 2, 3}};
         } else {
-            const auto length = [&](int i, int j) {
-                return (whole.positions.row(indices[i]) - whole.positions.row(indices[j])).norm();
-            };
-            pieces = length(0, 2) <= length(1, 3) ? std::vector<std::vector<int>>{{0, 1, 2}, {0, 2, 3}}
-                                                  : std::vector<std::vector<int>>{{0, 1, 3}, {1, 2, 3}};
+            for (const auto& [a, b, c] : split_quad({whole.point(indices[0]), whole.point(indices[1]),
+                                                     whole.point(indices[2]), whole.point(indices[3])}))
+                pieces.push_back({a, b, c});
         }
         for (std::vector<int>& piece : pieces) {
             for (int& i : piece) {

@@ -343,7 +343,8 @@ std::vector<Finding> require_sound(const Mesh& mesh) {
     if (fatal == 0) return findings;
     const Finding& first = findings.front();
     std::string sentence = first.sentence;
-    if (fatal > 1) sentence += " (and " + std::to_string(fatal - 1) + " further kinds of defects)";
+    if (fatal == 2) sentence += " (and 1 further kind of defect)";
+    if (fatal > 2) sentence += " (and " + std::to_string(fatal - 1) + " further kinds of defects)";
     throw Error(Cause::bad_mesh, sentence, first.next_step, first.indices);
 }
 

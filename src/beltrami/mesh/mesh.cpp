@@ -1,8 +1,70 @@
 #include <beltrami/mesh/mesh.h>
 
 #include <Eigen/Geometry>
+#include <array>
+#include <string>
+#include <utility>
+
+#include <beltrami/mesh/error.h>
 
 namespace beltrami {
+
+namespace {
+
+std::string shape_of(Eigen::Index rows, Eigen::Index columns) {
+    return std::to_string(rows) + "×" + std::to_string(columns);
+}
+
+}  // namespace
+
+Mesh mesh_from(const Eigen::MatrixXd& V, const Eigen::MatrixXi& F) {
+    if (V.cols() != 2 && V.cols() != 3) {
+        throw Error(Cause::bad_mesh, "the matrix of positions is " + shape_of(V.rows(), V.cols()),
+                    "give one row a vertex, of two or three coordinates");
+    }
+    if (F.cols() != 3 && F.cols() != 4) {
+        throw Error(Cause::bad_mesh, "the matrix of faces is " + shape_of(F.rows(), F.cols()),
+                    "give one row a face, of three or four vertices");
+    }
+    Mesh mesh;
+    mesh.positions = V;
+    mesh.faces.reserve(static_cast<int>(F.rows()), static_cast<int>(F.size()));
+    for (Eigen::Index face = 0; face < F.rows(); ++face) {
+        std::array<int, 4> corners{};
+        for (Eigen::Index i = 0; i < F.cols(); ++i) corners[i] = F(face, i);
+        const bool quad = F.cols() == 4 && corners[3] != -1;
+        mesh.faces.add(std::span<const int>(corners).first(quad ? 4 : 3));
+    }
+    return mesh;
+}
+
+Eigen::MatrixXi face_matrix(const Mesh& mesh) {
+    std::vector<int> others;
+    bool quads = false;
+    for (int face = 0; face < mesh.face_count(); ++face) {
+        const int degree = mesh.faces.degree(face);
+        quads = quads || degree == 4;
+        if (degree != 3 && degree != 4) others.push_back(face);
+    }
+    if (!others.empty()) {
+        const std::string sentence =
+            "face " + std::to_string(others[0]) + " has " + std::to_string(mesh.faces.degree(others[0])) + " corners";
+        throw Error(Cause::bad_mesh, sentence, "triangulate the mesh", std::move(others));
+    }
+    Eigen::MatrixXi F = Eigen::MatrixXi::Constant(mesh.face_count(), quads ? 4 : 3, -1);
+    for (int face = 0; face < mesh.face_count(); ++face) {
+        for (int i = 0; i < mesh.faces.degree(face); ++i) F(face, i) = mesh.faces[face][i];
+    }
+    return F;
+}
+
+Positions corner_positions(const Mesh& mesh) {
+    Positions corners(mesh.faces.corner_count(), mesh.positions.cols());
+    for (int corner = 0; corner < mesh.faces.corner_count(); ++corner) {
+        corners.row(corner) = mesh.positions.row(mesh.faces.vertices()[corner]);
+    }
+    return corners;
+}
 
 bool is_planar(const Mesh& mesh) {
     return mesh.positions.cols() < 3 || (mesh.positions.col(2).array() == 0.0).all();

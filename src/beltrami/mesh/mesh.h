@@ -72,6 +72,22 @@ struct Mesh {
     }
 };
 
+/// A mesh from matrices as libigl has them.
+/// @param V n×2 or n×3 positions
+/// @param F m×3 triangles, or m×4 quads and triangles: -1 in the fourth column marks a triangle. Vertices are counted
+///          from 0; whether they exist is diagnose()'s to say.
+/// @throw Error bad_mesh for matrices of other shapes
+Mesh mesh_from(const Eigen::MatrixXd& V, const Eigen::MatrixXi& F);
+
+/// The faces as libigl has them: m×3 if all are triangles, else m×4 with -1 in the fourth column of triangles. (The
+/// positions are a matrix already.)
+/// @throw Error bad_mesh naming faces that are neither triangles nor quads
+Eigen::MatrixXi face_matrix(const Mesh& mesh);
+
+/// The position of every face corner's vertex, one row a corner, with as many columns as the positions.
+/// @pre indices of the faces are in range
+Positions corner_positions(const Mesh& mesh);
+
 /// True if the mesh lies in the plane z = 0 (two coordinates, or every z exactly 0).
 bool is_planar(const Mesh& mesh);
 

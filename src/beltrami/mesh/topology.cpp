@@ -1,6 +1,5 @@
 #include <beltrami/mesh/topology.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -9,6 +8,7 @@
 #include <beltrami/mesh/disjoint_sets.h>
 #include <beltrami/mesh/edge_table.h>
 #include <beltrami/mesh/error.h>
+#include <beltrami/mesh/polygon.h>
 
 namespace beltrami {
 namespace {
@@ -46,14 +46,11 @@ bool indices_are_usable(const Mesh& mesh) {
     return true;
 }
 
-/// Twice the signed area that a loop encloses in the xy-plane.
+/// Signed area that a loop encloses in the xy-plane.
 double enclosed_area(const Mesh& mesh, const std::vector<int>& loop) {
-    const Eigen::Vector3d origin = mesh.point(loop[0]);
-    double sum = 0.0;
-    for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
-        sum += (mesh.point(loop[i]) - origin).cross(mesh.point(loop[i + 1]) - origin).z();
-    }
-    return sum;
+    std::vector<Complex> polygon;
+    for (const int vertex : loop) polygon.emplace_back(mesh.positions(vertex, 0), mesh.positions(vertex, 1));
+    return signed_area(polygon);
 }
 
 /// Follows the boundary half-edges; loops come out by their smallest vertex, then the outer one moves to the front.

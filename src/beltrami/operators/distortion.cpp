@@ -15,10 +15,13 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kDegenerateArea = 1e-14;
+constexpr double kAntiConformal = 1e-28;  // of |∂f|²/|∂̄f|²
 
+/// ∂̄f/∂f; infinite where ∂f is nothing but the rounding of ∂̄f.
 Complex quotient(Complex d_z, Complex d_zbar) {
-    if (d_z != 0.0) return d_zbar / d_z;
-    return d_zbar != 0.0 ? Complex(kInfinity, 0) : Complex(kNaN, kNaN);
+    const double z = std::norm(d_z), zbar = std::norm(d_zbar);
+    if (z > kAntiConformal * zbar) return d_zbar / d_z;
+    return zbar > 0 ? Complex(kInfinity, 0) : Complex(kNaN, kNaN);
 }
 
 /// (∂f, ∂̄f) of a map into space, in an orthonormal frame of the image oriented by the image's vertex normals.

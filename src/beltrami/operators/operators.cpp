@@ -6,6 +6,7 @@
 #include <string>
 
 #include <beltrami/mesh/error.h>
+#include <beltrami/mesh/planar.h>
 #include <beltrami/mesh/topology.h>
 
 namespace beltrami {
@@ -118,16 +119,16 @@ Operators from_corner_points(const Mesh& mesh, PointOfCorner&& point) {
     return builder.finish();
 }
 
-Operators planar_operators(const Mesh& mesh, double side) {
+Operators planar_operators(const Mesh& mesh) {
     Builder builder(mesh);
-    const auto z = [&](int vertex) { return Complex(mesh.positions(vertex, 0), side * mesh.positions(vertex, 1)); };
+    const Eigen::VectorXcd z = planar_coordinates(mesh);
     for (int f = 0; f < mesh.face_count(); ++f) {
         const auto v = mesh.faces[f];
         if (v.size() == 3) {
-            builder.triangle(f, v, z(v[0]), z(v[1]), z(v[2]));
+            builder.triangle(f, v, z[v[0]], z[v[1]], z[v[2]]);
         } else {
             Vector3 p[4];
-            for (int j = 0; j < 4; ++j) p[j] = {z(v[j]).real(), z(v[j]).imag(), 0};
+            for (int j = 0; j < 4; ++j) p[j] = {z[v[j]].real(), z[v[j]].imag(), 0};
             builder.quad(f, v, p, Vector3::UnitX(), Vector3::UnitZ());
         }
     }
@@ -159,9 +160,7 @@ Operators::Matrix Operators::d_z() const {
 Operators operators(const Mesh& mesh) {
     if (!is_planar(mesh))
         return from_corner_points(mesh, [&](int corner) { return mesh.point(mesh.faces.vertices()[corner]); });
-    double up = 0;
-    for (int f = 0; f < mesh.face_count(); ++f) up += face_vector_area(mesh, f).z();
-    return planar_operators(mesh, up < 0 ? -1.0 : 1.0);
+    return planar_operators(mesh);
 }
 
 Operators operators_from_corners(const Mesh& mesh, const Positions& corners) {
@@ -170,7 +169,7 @@ Operators operators_from_corners(const Mesh& mesh, const Positions& corners) {
     });
 }
 
-Operators operators_from_lengths(const Mesh& mesh, std::span<const EdgeLength> lengths) {
+Positions corners_from_lengths(const Mesh& mesh, std::span<const EdgeLength> lengths) {
     const Topology top = topology(mesh);
     std::vector<double> edge_length(top.edge_count(), -1.0);
     for (const auto& [a, b, length] : lengths) {
@@ -194,7 +193,7 @@ Operators operators_from_lengths(const Mesh& mesh, std::span<const EdgeLength> l
                         "the metric gives no length for edge " + std::to_string(top.edges[e][0]) + " " +
                             std::to_string(top.edges[e][1]),
                         "give one line per edge: i j length", {top.edges[e][0], top.edges[e][1]});
-    Builder builder(mesh);
+    Positions corners = Positions::Zero(mesh.faces.corner_count(), 2);
     for (int f = 0; f < mesh.face_count(); ++f) {
         if (mesh.faces.degree(f) != 3)
             throw Error(Cause::bad_mesh,
@@ -213,9 +212,10 @@ Operators operators_from_lengths(const Mesh& mesh, std::span<const EdgeLength> l
                         "the lengths of face " + std::to_string(f) + " violate the triangle inequality",
                         "check the metric of its three edges", {f});
         const double x = (l01 * l01 + l20 * l20 - l12 * l12) / (2 * l01), height = 0.5 * std::sqrt(heron) / l01;
-        builder.triangle(f, mesh.faces[f], 0.0, l01, Complex(x, height));
+        corners(c + 1, 0) = l01;
+        corners.row(c + 2) << x, height;
     }
-    return builder.finish();
+    return corners;
 }
 
 Operators per_corner(const Operators& operators, const FaceList& faces) {
@@ -238,6 +238,9 @@ Positions texture_corners(const Mesh& mesh) {
                 throw Error(Cause::bad_mesh, "face " + std::to_string(f) + " has a corner without texture coordinates",
                             "every face needs vt", {f});
             corners.row(c) = mesh.texture->points.row(t).head(2);
+            if (!corners.row(c).allFinite())
+                throw Error(Cause::bad_mesh, "face " + std::to_string(f) + " has texture coordinates that are not finite",
+                            "repair the vt of its corners", {f});
         }
     return corners;
 }

@@ -67,11 +67,11 @@ struct EdgeLength {
     double length;
 };
 
-/// Operators of a custom metric: every edge of a triangle mesh has a length.
-/// @throw Error bad_mesh for missing, repeated, unknown or non-positive lengths, for triangles that violate the
-/// triangle
+/// A custom metric by edge lengths, as the shape of every face: one point per face corner (#corners×2), the first edge on
+/// the real axis.
+/// @throw Error bad_mesh for missing, repeated, unknown or non-positive lengths, for triangles that violate the triangle
 ///        inequality (named), and for quads, whose shape edge lengths do not determine.
-Operators operators_from_lengths(const Mesh& mesh, std::span<const EdgeLength> lengths);
+Positions corners_from_lengths(const Mesh& mesh, std::span<const EdgeLength> lengths);
 
 /// Operators of the metric in which every face has the shape of its corners in @p corners, one point per face corner
 /// (#corners×2 or ×3): reference shapes, or the texture coordinates of a mesh with seams.
@@ -84,7 +84,7 @@ Operators operators_from_corners(const Mesh& mesh, const Positions& corners);
 Operators per_corner(const Operators& operators, const FaceList& faces);
 
 /// Positions of the texture point of every corner (#corners×2).
-/// @throw Error bad_mesh if the mesh has no texture coordinates or a corner lacks one
+/// @throw Error bad_mesh if the mesh has no texture coordinates, a corner lacks one or one is not finite
 Positions texture_corners(const Mesh& mesh);
 
 }  // namespace beltrami

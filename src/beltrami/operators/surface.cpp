@@ -1,19 +1,60 @@
 #include <beltrami/operators/surface.h>
 
+#include <string>
+
+#include <beltrami/mesh/error.h>
+
 namespace beltrami {
+
+namespace {
+
+std::vector<std::vector<double>> lengths_of_loops(const Surface& s) {
+    // The face corner at which the boundary edge that leaves a vertex begins.
+    std::vector<int> corner(s.mesh.vertex_count(), -1), next(s.mesh.faces.corner_count());
+    for (int f = 0; f < s.mesh.face_count(); ++f)
+        for (int first = s.mesh.faces.first_corner(f), degree = s.mesh.faces.degree(f), j = 0; j < degree; ++j) {
+            const int c = first + j;
+            next[c] = first + (j + 1) % degree;
+            const auto& sides = s.topology.edge_faces[s.topology.corner_edges[c]];
+            if (sides[0] < 0 || sides[1] < 0) corner[s.mesh.faces.vertices()[c]] = c;
+        }
+    const auto point = [&](int c) -> Eigen::Vector3d {
+        if (!s.metric) return s.mesh.point(s.mesh.faces.vertices()[c]);
+        return {(*s.metric)(c, 0), (*s.metric)(c, 1), s.metric->cols() > 2 ? (*s.metric)(c, 2) : 0.0};
+    };
+    std::vector<std::vector<double>> lengths;
+    for (const auto& loop : s.topology.boundary_loops) {
+        auto& of_loop = lengths.emplace_back();
+        for (const int v : loop) of_loop.push_back((point(next[corner[v]]) - point(corner[v])).norm());
+    }
+    return lengths;
+}
+
+}  // namespace
 
 Surface::Surface(Mesh m)
     : mesh(std::move(m)),
       findings(require_sound(mesh)),
       topology(beltrami::topology(mesh)),
       operators(beltrami::operators(mesh)),
-      planar_metric(is_planar(mesh)) {}
+      boundary_edge_lengths(lengths_of_loops(*this)) {}
 
-Surface::Surface(Mesh m, Operators metric)
+Surface::Surface(Mesh m, Positions corners)
     : mesh(std::move(m)),
       findings(require_sound(mesh)),
       topology(beltrami::topology(mesh)),
-      operators(std::move(metric)),
-      planar_metric(false) {}
+      metric(std::move(corners)),
+      operators(operators_from_corners(mesh, *metric)),
+      boundary_edge_lengths(lengths_of_loops(*this)) {}
+
+void require_disk(const Surface& surface) {
+    const Topology& topology = surface.topology;
+    if (topology.components == 1 && topology.boundary_loops.size() == 1 && topology.genus == 0) return;
+    throw Error(Cause::bad_mesh,
+                "the surface is not a disk: it has " + std::to_string(topology.components) + " component(s), " +
+                    std::to_string(topology.boundary_loops.size()) + " boundary loop(s) and genus " +
+                    std::to_string(topology.genus),
+                "cut or fill it until one component with one boundary loop is left");
+}
 
 }  // namespace beltrami

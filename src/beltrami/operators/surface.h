@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include <beltrami/mesh/diagnosis.h>
 #include <beltrami/mesh/topology.h>
 #include <beltrami/operators/operators.h>
@@ -11,14 +13,24 @@ struct Surface {
     Mesh mesh;
     std::vector<Finding> findings;  ///< warnings of the diagnosis
     Topology topology;
-    Operators operators;  ///< of the mesh's own metric unless another was given
-    bool planar_metric;   ///< operators are in the frame of the plane that the mesh lies in
+    /// A metric of its own: one point per face corner, every face has the shape of its points (#corners×2 or ×3).
+    std::optional<Positions> metric;
+    Operators operators;  ///< of the metric, or of the mesh itself
+    /// Lengths, in the metric, of the edges of topology.boundary_loops: [l][i] from vertex i of loop l to the next.
+    std::vector<std::vector<double>> boundary_edge_lengths;
 
     /// With the metric of the mesh itself.
     /// @throw Error bad_mesh
     explicit Surface(Mesh mesh);
-    /// With a metric of its own, e.g. operators_from_lengths.
-    Surface(Mesh mesh, Operators metric);
+    /// With a metric of its own, for instance corners_from_lengths or texture_corners.
+    /// @throw Error bad_mesh
+    Surface(Mesh mesh, Positions metric);
+
+    /// True if the operators are in the frame of a plane in which the mesh lies.
+    bool in_plane() const { return !metric && is_planar(mesh); }
 };
+
+/// @throw Error bad_mesh unless the surface is a disk: one component, one boundary loop, genus 0
+void require_disk(const Surface& surface);
 
 }  // namespace beltrami

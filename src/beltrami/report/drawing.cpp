@@ -5,6 +5,7 @@
 #include <set>
 #include <unordered_map>
 
+#include <beltrami/mesh/quad_split.h>
 #include <beltrami/report/drawing.h>
 
 namespace beltrami {
@@ -20,12 +21,11 @@ Drawing split_quads(const Mesh& mesh) {
             drawing.faces.push_back(face);
             continue;
         }
-        const double first = (mesh.point(v[0]) - mesh.point(v[2])).squaredNorm();
-        const double second = (mesh.point(v[1]) - mesh.point(v[3])).squaredNorm();
-        const std::size_t s = first <= second ? 0 : 1;
-        drawing.triangles.push_back({v[s], v[s + 1], v[s + 2]});
-        drawing.triangles.push_back({v[s], v[s + 2], v[(s + 3) % 4]});
-        drawing.faces.insert(drawing.faces.end(), {face, face});
+        for (const auto& [a, b, c] :
+             split_quad({mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3])})) {
+            drawing.triangles.push_back({v[a], v[b], v[c]});
+            drawing.faces.push_back(face);
+        }
     }
     return drawing;
 }

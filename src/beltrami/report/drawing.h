@@ -7,7 +7,7 @@
 
 namespace beltrami {
 
-/// The triangles that stand for a mesh in a picture. Quads are split along their shorter diagonal; a mesh of too many
+/// The triangles that stand for a mesh in a picture. Quads are split by split_quad; a mesh of too many
 /// triangles is coarsened by merging the vertices of each cell of a grid. For drawing only: nothing is computed on it.
 struct Drawing {
     std::vector<std::array<int, 3>> triangles;  ///< indices of drawn vertices; the two halves of a quad are neighbours

@@ -66,10 +66,14 @@ SourceRecord source_record(const Mesh& mesh) {
     return {mesh.vertex_count(), mesh.face_count(), {}};
 }
 
-SourceRecord source_record(const Surface& surface) {
-    SourceRecord record = source_record(surface.mesh);
-    record.shape = {surface.topology.components, surface.topology.genus, surface.topology.loop_lengths};
+SourceRecord source_record(const Mesh& mesh, const Topology& topology) {
+    SourceRecord record = source_record(mesh);
+    record.shape = {topology.components, topology.genus, topology.loop_lengths};
     return record;
+}
+
+SourceRecord source_record(const Surface& surface) {
+    return source_record(surface.mesh, surface.topology);
 }
 
 MapRecord map_record(const Distortion& distortion) {
@@ -153,6 +157,20 @@ std::string to_table(const Record& record, const std::string& method) {
         table += line + "\n";
     }
     return table;
+}
+
+std::string to_sentence(const Record& record) {
+    if (!record.map || !record.map->K_lower) return {};
+    const MapRecord& map = *record.map;
+    const bool rigorous = std::any_of(map.bounds.begin(), map.bounds.end(), [&](const Bound& bound) {
+        return bound.rigorous && bound.of == Bound::Of::extremal && bound.kind != "attained" && bound.K == *map.K_lower;
+    });
+    // Rounded so that what is said stays true.
+    return fmt::format(
+        "no map with these boundary values stretches less than K = {:.3f} ({})\n"
+        "this one: about {:.3f}, at most {:.3f} on 99 % of the area\n",
+        std::floor(*map.K_lower * 1e3) / 1e3, rigorous ? "proved up to rounding" : "estimate", dilatation(map.mean),
+        std::ceil(dilatation(map.p99) * 1e3) / 1e3);
 }
 
 }  // namespace beltrami

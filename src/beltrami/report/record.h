@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include <beltrami/baselines/baseline.h>
 #include <beltrami/teichmuller/extremal_map.h>
 
 namespace beltrami {
@@ -55,6 +54,7 @@ struct Record {
 };
 
 SourceRecord source_record(const Mesh& mesh);
+SourceRecord source_record(const Mesh& mesh, const Topology& topology);
 SourceRecord source_record(const Surface& surface);
 MapRecord map_record(const Distortion& distortion);
 MapRecord map_record(const ExtremalMap& result);
@@ -66,5 +66,8 @@ std::string to_json(const Record& record);
 /// The record's map and comparison as a table for the terminal; empty without a map.
 /// @param method name of the record's own map
 std::string to_table(const Record& record, const std::string& method);
+
+/// What the lower bound on K says and how near the map comes, in plain words for the terminal; empty without a bound.
+std::string to_sentence(const Record& record);
 
 }  // namespace beltrami

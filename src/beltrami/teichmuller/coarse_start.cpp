@@ -81,9 +81,9 @@ HamiltonState coarse_start(const Surface& source, const BoundaryCondition& bound
     CoefficientStep coefficient_step(model, model_chart, phase, options.cluster_count);
     HamiltonIteration iteration(model, solver, prescribed, coefficient_step, coarse_options);
     HamiltonState state;
-    iteration.run(state, solver.solve(prescribed), PolynomialSpace::for_samples(model.operators.sample_count()), false);
-    state.space = std::make_unique<PolynomialSpace>(state.space->size() - 1,
-                                                    PolynomialSpace::largest_degree(source.operators.sample_count()));
+    // The degrees that the fine mesh resolves: on the coarse one the highest are rough, which is good enough for a start.
+    const int largest_degree = PolynomialSpace::largest_degree(source.operators.sample_count());
+    iteration.run(state, solver.solve(prescribed), PolynomialSpace::starting_space(largest_degree), false);
     return state;
 }
 

@@ -7,6 +7,8 @@ namespace beltrami {
 namespace {
 
 constexpr double kClip = 0.95;
+/// δ of the rounded |φ|, in edge lengths of a quadrature cell: about |φ| at a fifth of a cell from a simple zero.
+constexpr double kRounding = 0.2;
 
 Complex clipped(Complex mu) {
     const double size = std::abs(mu);
@@ -21,7 +23,12 @@ CoefficientStep::CoefficientStep(const Surface& source, const Chart& chart, doub
     : source_(source),
       chart_(chart),
       sampled_(chart, phase),
-      clusters_(cluster_samples(source.operators, chart, phase, cluster_count)) {}
+      clusters_(cluster_samples(source.operators, chart, phase, cluster_count)) {
+    double area = 0;
+    for (const double a : clusters_.squared) area += a;
+    problem_.rounding = kRounding * std::sqrt(area / static_cast<double>(clusters_.points.positions.size()));
+    fine_rounding_ = kRounding * std::sqrt(area / static_cast<double>(source.operators.sample_count()));
+}
 
 void CoefficientStep::set_space(const DifferentialSpace& space) {
     sampled_.set(space);
@@ -58,19 +65,22 @@ CoefficientStep::Result CoefficientStep::solve(const Eigen::VectorXcd& mu, const
     }
     at.conservativeResizeLike(Eigen::VectorXcd::Zero(size));
     const Eigen::VectorXcd phi = known_phi.size() ? known_phi : sampled_.combination(at);
-    bool any = false;
-    for (int s = 0; s < samples; ++s)
-        if (const double square = std::norm(phi[s]); square > 0) {
-            weights(s, 1) = norm_weight[s] / std::sqrt(square) * std::conj(phi[s]);
-            any = true;
-        }
+    const double length_at = at.norm(), delta = fine_rounding_ * length_at;
+    for (int s = 0; s < samples; ++s) {
+        if (!(norm_weight[s] > 0)) continue;
+        const double rounded = delta * std::norm(chart_.derivatives[s]), square = std::norm(phi[s]) + rounded * rounded;
+        if (square > 0) weights(s, 1) = norm_weight[s] / std::sqrt(square) * std::conj(phi[s]);
+    }
     const Eigen::MatrixXcd sums = sampled_.pair(weights);
     problem_.pairing = sums.col(0);
     problem_.correction.resize(0);
-    if (any) problem_.correction = sums.col(1) - dual_gradient(problem_.basis, problem_.weights, problem_.basis * at);
+    if (length_at > 0)
+        problem_.correction =
+            sums.col(1) - dual_gradient(problem_.basis, problem_.weights, problem_.basis * at, problem_.rounding * length_at);
     const DualSolution dual = solve_dual(problem_, at);
 
     Result result;
+    result.converged = dual.converged;
     const double length = dual.coefficients.norm();
     result.direction = length > 0 ? Eigen::VectorXcd(dual.coefficients / length) : dual.coefficients;
     result.phi = sampled_.combination(result.direction);

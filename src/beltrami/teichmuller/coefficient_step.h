@@ -13,6 +13,7 @@ class CoefficientStep {
         Eigen::VectorXcd direction;  ///< coefficients of φ, of length 1; 0 if nothing pairs with μ
         Eigen::VectorXcd phi;        ///< #S values of φ for these coefficients
         double k = 0;
+        bool converged = false;      ///< of the convex problem
     };
 
     /// @param source, chart kept by reference
@@ -36,6 +37,7 @@ class CoefficientStep {
     SampledSpace sampled_;
     SampleClusters clusters_;
     DualProblem problem_;
+    double fine_rounding_ = 0;  ///< as DualProblem::rounding, for single samples in the canonical domain
 };
 
 }  // namespace beltrami

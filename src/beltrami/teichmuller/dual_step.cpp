@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <beltrami/differentials/chart_grid.h>
 
@@ -12,11 +13,14 @@ namespace {
 
 /// |φ| is floored at this part of its maximum, where its direction means nothing.
 constexpr double kFloor = 1e-12;
+/// The slope at which Newton stops, as part of the norm.
 constexpr double kGradientTolerance = 1e-12;
+/// (δ/s)² below which the second kind of Hessian row is left out.
+constexpr double kNearZero = 1e-3;
 
-/// |φ|, without the care that std::abs takes of overflow.
-Eigen::VectorXd sizes_of(const Eigen::VectorXcd& phi) {
-    return phi.cwiseAbs2().cwiseSqrt();
+/// √(|φ|² + δ²), without the care that std::abs takes of overflow.
+Eigen::VectorXd sizes_of(const Eigen::VectorXcd& phi, double delta) {
+    return (phi.array().abs2() + delta * delta).sqrt();
 }
 
 /// Real view of the coefficients: (Re c, Im c), or Re c alone.
@@ -48,8 +52,8 @@ struct RealView {
 }  // namespace
 
 Eigen::VectorXcd dual_gradient(const Eigen::MatrixXcd& basis, const Eigen::VectorXd& weights,
-                               const Eigen::VectorXcd& phi) {
-    Eigen::VectorXd sizes = sizes_of(phi);
+                               const Eigen::VectorXcd& phi, double delta) {
+    Eigen::VectorXd sizes = sizes_of(phi, delta);
     sizes = sizes.cwiseMax(kFloor * sizes.maxCoeff());
     return basis.transpose() * weights.cwiseQuotient(sizes).cast<Complex>().cwiseProduct(phi.conjugate());
 }
@@ -78,25 +82,39 @@ DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& star
 
     const Eigen::VectorXd q =
         problem.correction.size() ? view.covector(problem.correction) : Eigen::VectorXd::Zero(x.size());
+    const double delta = problem.rounding * x.norm();
     const auto norm_of = [&](const Eigen::VectorXcd& phi, const Eigen::VectorXd& at) {
-        return problem.weights.dot(sizes_of(phi)) + q.dot(at);
+        return problem.weights.dot(sizes_of(phi, delta)) + q.dot(at);
     };
     Eigen::VectorXcd phi = problem.basis * view.unpack(x);
     double norm = norm_of(phi, x);
-    Eigen::MatrixXd rows(points, x.size());
-    Eigen::VectorXd sizes(points);
     for (; solution.newton_steps < max_newton_steps; ++solution.newton_steps) {
-        sizes = sizes_of(phi);
+        Eigen::VectorXd sizes = sizes_of(phi, delta);
         sizes = sizes.cwiseMax(kFloor * sizes.maxCoeff());
-        const Eigen::VectorXcd u = phi.conjugate().cwiseQuotient(sizes.cast<Complex>());
-        const Eigen::VectorXd gradient = view.covector(dual_gradient(problem.basis, problem.weights, phi)) + q;
+        const Eigen::VectorXd gradient = view.covector(dual_gradient(problem.basis, problem.weights, phi, delta)) + q;
 
-        // Hessian Σ w/|φ| Im(u φ_i) Im(u φ_j), as a product of scaled rows.
-        const Eigen::VectorXd scale = problem.weights.cwiseQuotient(sizes).cwiseSqrt();
+        // Hessian Σ w/s (Im(eφ_i) Im(eφ_j) + (δ/s)² Re(eφ_i) Re(eφ_j)) with s = √(|φ|²+δ²), e = conj(φ)/|φ|: a product of scaled
+        // rows. The second kind of row matters only near zeros of φ.
+        std::vector<Eigen::Index> near_zeros;
+        for (Eigen::Index i = 0; i < points; ++i)
+            if (delta * delta > kNearZero * sizes[i] * sizes[i]) near_zeros.push_back(i);
+        Eigen::VectorXcd e(points);
+        for (Eigen::Index i = 0; i < points; ++i) {
+            const double size = std::sqrt(std::norm(phi[i]));
+            e[i] = size > 0 ? std::conj(phi[i]) / size : 1.0;
+        }
+        e = e.cwiseProduct(problem.weights.cwiseQuotient(sizes).cwiseSqrt().cast<Complex>());
+        Eigen::MatrixXd rows(points + static_cast<Eigen::Index>(near_zeros.size()), x.size());
         for (Eigen::Index j = 0; j < m; ++j) {
-            const Eigen::VectorXcd column = u.cwiseProduct(problem.basis.col(j));
-            rows.col(j) = scale.cwiseProduct(column.imag());
-            if (view.complex) rows.col(m + j) = scale.cwiseProduct(column.real());
+            const Eigen::VectorXcd column = e.cwiseProduct(problem.basis.col(j));
+            rows.col(j).head(points) = column.imag();
+            if (view.complex) rows.col(m + j).head(points) = column.real();  // of iφ_j
+            for (std::size_t i = 0; i < near_zeros.size(); ++i) {
+                const auto row = points + static_cast<Eigen::Index>(i);
+                const double ratio = delta / sizes[near_zeros[i]];
+                rows(row, j) = ratio * column[near_zeros[i]].real();
+                if (view.complex) rows(row, m + j) = -ratio * column[near_zeros[i]].imag();
+            }
         }
         Eigen::MatrixXd hessian = Eigen::MatrixXd::Zero(x.size(), x.size());
         hessian.selfadjointView<Eigen::Lower>().rankUpdate(rows.transpose());
@@ -111,7 +129,10 @@ DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& star
         const double multiplier = p.dot(by_gradient) / p.dot(by_constraint);
         const Eigen::VectorXd step = multiplier * by_constraint - by_gradient;
         const double slope = gradient.dot(step);
-        if (!(slope < -kGradientTolerance * kGradientTolerance * norm)) break;
+        if (!(slope < -kGradientTolerance * kGradientTolerance * norm)) {
+            solution.converged = slope > -kGradientTolerance * norm;
+            break;
+        }
 
         double length = 1;
         bool accepted = false;
@@ -127,11 +148,13 @@ DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& star
                 break;
             }
         }
-        if (!accepted) break;
+        // At the level of rounding no step need descend.
         if (-slope < kGradientTolerance * norm) {
-            ++solution.newton_steps;
+            solution.converged = true;
+            solution.newton_steps += accepted;
             break;
         }
+        if (!accepted) break;
     }
     solution.coefficients = view.unpack(x);
     solution.pairing = p.dot(x);

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
+#include <beltrami/mesh/polygon.h>
 #include <beltrami/conformal/round_disk.h>
 #include <beltrami/differentials/polynomial_space.h>
 #include <beltrami/maps/beltrami_solver.h>
@@ -26,6 +28,46 @@ double phase_of(const Chart& chart, const BoundaryCondition& boundary) {
         correlation += chart.vertices[boundary.vertices[i]] * std::conj(boundary.images[i] - mean);
     return std::arg(correlation);
 }
+
+/// Boundary values that no one-to-one map has: clockwise, coinciding, turning straight back or crossing themselves.
+void require_possible(const BoundaryCondition& boundary, const Surface& source) {
+    const auto& loop = source.topology.boundary_loops[0];
+    const Eigen::VectorXcd images = prescribed_values(boundary, source);
+    std::vector<Complex> polygon;
+    for (const int v : loop) polygon.push_back(images[v]);
+    try {
+        require_simple_polygon(polygon);
+    } catch (const Error& error) {
+        if (error.indices().empty())
+            throw Error(Cause::bad_boundary, "the boundary values enclose no area or run clockwise",
+                        "prescribe them counter-clockwise, as the boundary runs with the surface on its left");
+        std::vector<int> vertices;
+        std::string named;
+        for (const int edge : error.indices()) {
+            vertices.push_back(loop[edge]);
+            named += (named.empty() ? "" : " and ") + std::to_string(loop[edge]);
+        }
+        throw Error(Cause::bad_boundary,
+                    "the boundary values coincide, turn back or cross themselves at the boundary edges that begin at the vertices " + named,
+                    "no one-to-one map has them; prescribe a simple curve", std::move(vertices));
+    }
+}
+
+/// √ of the mean of |μ − k conj(φ)/|φ||², |μ| held at 1: how far a map is from the coefficient that the theory promises.
+double deviation(const Operators& operators, const Eigen::VectorXcd& mu, const Eigen::VectorXcd& phi, double k) {
+    double sum = 0, area = 0;
+    for (int s = 0; s < operators.sample_count(); ++s) {
+        const double size = std::abs(phi[s]);
+        if (!(size > 0) || !std::isfinite(std::abs(mu[s]))) continue;
+        const Complex m = std::abs(mu[s]) > 1 ? mu[s] / std::abs(mu[s]) : mu[s];
+        sum += operators.weights[s] * std::norm(m - k * std::conj(phi[s]) / size);
+        area += operators.weights[s];
+    }
+    return area > 0 ? std::sqrt(sum / area) : 0.0;
+}
+
+/// Where the deviation exceeds this part of k, k is no more than a rough estimate.
+constexpr double kRough = 0.6;
 
 }  // namespace
 
@@ -56,8 +98,10 @@ ExtremalMap extremal_map(const Mesh& source, const BoundaryCondition& boundary, 
 
 ExtremalMap extremal_map(const Surface& source, const BoundaryCondition& boundary, const ExtremalOptions& options) {
     options.validate();
+    require_disk(source);
     validate(boundary, source);
     require_whole_boundary(boundary, source);
+    require_possible(boundary, source);
     for (const int v : boundary.vertices)
         if (!source.topology.on_boundary[v])
             throw Error(Cause::bad_boundary,
@@ -79,7 +123,7 @@ ExtremalMap extremal_map(const Surface& source, const BoundaryCondition& boundar
     HamiltonState state = coarse_start(source, boundary, chart, phase, options);
     CoefficientStep coefficient_step(source, chart, phase, options.cluster_count);
     HamiltonIteration iteration(source, solver, prescribed, coefficient_step, options);
-    iteration.run(state, result.harmonic, PolynomialSpace::for_samples(operators.sample_count()), true);
+    iteration.run(state, result.harmonic, PolynomialSpace::starting_space(PolynomialSpace::largest_degree(operators.sample_count())), true);
     result.map = iteration.map();
     result.history = iteration.history();
     result.iterations = iteration.iterations();
@@ -115,6 +159,10 @@ ExtremalMap extremal_map(const Surface& source, const BoundaryCondition& boundar
     if (result.termination == Termination::iteration_limit)
         result.warnings.push_back("stopped after " + std::to_string(result.iterations) +
                                   " iterations before k and φ settled");
+    if (result.k > 1e-3 && deviation(operators, result.distortion.mu, step.phi, result.k) > kRough * result.k)
+        result.warnings.push_back(
+            "the map is far from constant dilatation: the mesh is too coarse for its shape, or the extremal map is not smooth; "
+            "K is a rough estimate and K_lower may be far below K*");
     return result;
 }
 

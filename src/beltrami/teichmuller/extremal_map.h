@@ -39,7 +39,8 @@ struct ExtremalMap {
     Eigen::VectorXcd phi;  ///< #S quadratic differential in the samples' frames; 0 where the chart excludes the sample
     Eigen::VectorXcd harmonic;  ///< #V the harmonic start
     Distortion distortion;      ///< of map
-    double k = 0, K = 1;        ///< of the last c-step: an estimate of k*, K*
+    /// An estimate of k* and K*: √(I⁺/I⁻) = (1+k)/(1−k) for the map and the φ of its c-step, with the quadrature of the bounds.
+    double k = 0, K = 1;
     double K_lower = 1;         ///< largest Reich-Strebel bound; 1 if there is none
     double K_max = 0;           ///< largest K of a face; infinite if faces are flipped or collapsed
     std::vector<Bound> bounds;
@@ -49,6 +50,9 @@ struct ExtremalMap {
     int factorizations = 0;  ///< of #V×#V systems and larger, chart included
     std::vector<Iteration> history;
     std::vector<std::string> warnings;
+
+    /// Whether no face is flipped or collapsed: with a simple boundary polygon the map is then one-to-one.
+    bool one_to_one() const { return distortion.flipped.empty() && distortion.degenerate.empty(); }
 };
 
 /// The extremal quasiconformal (Teichmüller) map with prescribed boundary values, by Hamilton's iteration with Anderson

@@ -100,7 +100,7 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
 
         // Where k vanishes the direction of φ means nothing.
         const bool settled =
-            k_change < options_.tolerance && (change < options_.tolerance || step_.k < options_.tolerance);
+            step_.converged && k_change < options_.tolerance && (change < options_.tolerance || step_.k < options_.tolerance);
         // Growing is decided where the map is exact to rounding, which must not turn the decision: at the start
         // (above), at the first map that comes from another mesh's φ, and in the end.
         if ((from_elsewhere && iterations_ == 1) || (settled && may_grow_in_the_end)) {

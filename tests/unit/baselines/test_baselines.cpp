@@ -183,7 +183,20 @@ TEST(Baselines, RejectWhatIsMissing) {
         tetrahedron.faces.add(face);
     const Surface closed(tetrahedron);
     for (const Method& method : kAll)
-        expect_error(Cause::bad_boundary, "closed surface", [&] { method.map(closed, partial = one, {}); });
+        expect_error(Cause::bad_mesh, "closed surface", [&] { method.map(closed, one, {}); });
+
+    Mesh pair = disk(2);
+    const int n = pair.vertex_count();
+    const FaceList single = pair.faces;
+    pair.positions.conservativeResize(2 * n, Eigen::NoChange);
+    pair.positions.bottomRows(n) = pair.positions.topRows(n).rowwise() + Eigen::RowVector2d(3, 0);
+    for (int f = 0; f < single.size(); ++f) pair.faces.add({single[f][0] + n, single[f][1] + n, single[f][2] + n});
+    const Surface two(pair);
+    const BoundaryCondition identity = prescribe(two, [](Complex z) { return z; });
+    for (const Method& method : kAll)
+        expect_error(Cause::bad_mesh, "the mesh has 2 components", [&] { method.map(two, identity, {}); });
+    for (const Method& method : kFree)
+        expect_error(Cause::bad_mesh, "the mesh has 2 components", [&] { method.map(two, {}, {}); });
 
     for (const Method& method : kAll) {
         BaselineOptions options;
@@ -344,7 +357,7 @@ TEST(Mips, StartsFromTuttesMapWhereTheHarmonicOneFolds) {
         if (long_edge) used[left] = used[right] = 1;
         lengths.push_back({edges.edges[e][0], edges.edges[e][1], long_edge ? 1.99 : 1.0});
     }
-    const Surface source(mesh, operators_from_lengths(mesh, lengths));
+    const Surface source(mesh, corners_from_lengths(mesh, lengths));
     const BoundaryCondition boundary = to_circle(source, 0.5);
     ASSERT_FALSE(distortion(source.operators, harmonic_map(source, boundary)).flipped.empty());
     const BaselineMap result = mips_baseline(source, boundary);

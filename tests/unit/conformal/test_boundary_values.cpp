@@ -4,8 +4,8 @@
 #include <numbers>
 
 #include <beltrami/conformal/boundary_values.h>
-#include <beltrami/conformal/polygon.h>
 #include <beltrami/mesh/error.h>
+#include <beltrami/mesh/polygon.h>
 
 #include "support/meshes.h"
 

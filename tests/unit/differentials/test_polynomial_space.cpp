@@ -36,7 +36,7 @@ TEST(PolynomialSpace, PulledBackValuesTransformAsQuadraticDifferentials) {
 
 TEST(PolynomialSpace, GrowsByAddingFunctionsUpToALimit) {
     const ChartPoints points{0.7 * Eigen::VectorXcd::Random(20), Eigen::VectorXcd::Ones(20)};
-    std::unique_ptr<DifferentialSpace> space = PolynomialSpace::for_samples(40000);
+    std::unique_ptr<DifferentialSpace> space = PolynomialSpace::starting_space(PolynomialSpace::largest_degree(40000));
     int last = 0;
     while (space) {
         EXPECT_GT(space->size(), last);
@@ -48,7 +48,7 @@ TEST(PolynomialSpace, GrowsByAddingFunctionsUpToALimit) {
         space = std::move(larger);
     }
     EXPECT_GE(last, 30);
-    EXPECT_LE(PolynomialSpace::for_samples(100)->size(), 9);
+    EXPECT_LE(PolynomialSpace::largest_degree(100), 9);
 }
 
 }  // namespace

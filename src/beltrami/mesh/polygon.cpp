@@ -1,4 +1,4 @@
-#include <beltrami/conformal/polygon.h>
+#include <beltrami/mesh/polygon.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,10 +11,6 @@ namespace beltrami {
 
 namespace {
 
-double side(Complex a, Complex b, Complex c) {
-    return std::imag(std::conj(b - a) * (c - a));
-}
-
 bool within(Complex a, Complex b, Complex p) {
     return std::min(a.real(), b.real()) <= p.real() && p.real() <= std::max(a.real(), b.real()) &&
            std::min(a.imag(), b.imag()) <= p.imag() && p.imag() <= std::max(a.imag(), b.imag());
@@ -22,7 +18,8 @@ bool within(Complex a, Complex b, Complex p) {
 
 /// Whether two closed segments have a point in common.
 bool segments_meet(Complex a, Complex b, Complex c, Complex d) {
-    const double c_side = side(a, b, c), d_side = side(a, b, d), a_side = side(c, d, a), b_side = side(c, d, b);
+    const double c_side = signed_area(a, b, c), d_side = signed_area(a, b, d);
+    const double a_side = signed_area(c, d, a), b_side = signed_area(c, d, b);
     if (((c_side > 0 && d_side < 0) || (c_side < 0 && d_side > 0)) &&
         ((a_side > 0 && b_side < 0) || (a_side < 0 && b_side > 0)))
         return true;
@@ -34,8 +31,7 @@ bool segments_meet(Complex a, Complex b, Complex c, Complex d) {
 
 double signed_area(const std::vector<Complex>& polygon) {
     double area = 0;
-    for (std::size_t i = 0; i < polygon.size(); ++i)
-        area += 0.5 * std::imag(std::conj(polygon[i]) * polygon[(i + 1) % polygon.size()]);
+    for (std::size_t i = 1; i + 1 < polygon.size(); ++i) area += signed_area(polygon[0], polygon[i], polygon[i + 1]);
     return area;
 }
 
@@ -65,9 +61,9 @@ void require_simple_polygon(const std::vector<Complex>& polygon) {
             const Complex a = polygon[e], b = polygon[(e + 1) % n], c = polygon[f], d = polygon[(f + 1) % n];
             bool meet;
             if (f == e + 1) {
-                meet = side(a, b, d) == 0 && std::real(std::conj(b - a) * (d - b)) < 0;  // turning straight back
+                meet = signed_area(a, b, d) == 0 && std::real(std::conj(b - a) * (d - b)) < 0;  // turning straight back
             } else if (e == 0 && f == n - 1) {
-                meet = side(a, b, c) == 0 && std::real(std::conj(b - a) * (c - a)) > 0;
+                meet = signed_area(a, b, c) == 0 && std::real(std::conj(b - a) * (c - a)) > 0;
             } else {
                 meet = segments_meet(a, b, c, d);
             }

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <beltrami/mesh/mesh.h>
+
+namespace beltrami {
+
+/// True if the faces of a planar mesh run clockwise: their signed areas have a negative sum.
+/// @pre is_planar(mesh), indices in range
+bool seen_from_below(const Mesh& mesh);
+
+/// x + iy of every vertex, seen from the side from which the faces run counter-clockwise: conjugated if
+/// seen_from_below().
+/// @pre is_planar(mesh), indices in range
+Eigen::VectorXcd planar_coordinates(const Mesh& mesh);
+
+}  // namespace beltrami
