@@ -79,7 +79,7 @@ class Measure final : public Command {
     Distortion to_texture(const Mesh& source) {
         const Positions corners = texture_corners(source);
         if (!common_.report.empty()) split_at_corners(source, corners);
-        return distortion(per_corner(operators(source), source.faces), corners);
+        return distortion_to_corners(source, corners);
     }
 
     /// For drawing, a map with seams needs one vertex per corner.
@@ -105,8 +105,7 @@ class Measure final : public Command {
                         "write both from one program without reordering");
         if (!image.positions.allFinite()) throw Error(Cause::bad_mesh, "IMAGE has coordinates that are not finite");
         image_positions_ = is_planar(image) ? Positions(image.positions.leftCols(2)) : image.positions;
-        return distortion(operators(source), image_positions_,
-                          image_positions_.cols() > 2 ? vertex_normals(image) : Positions());
+        return distortion_to(source, image);
     }
 
     std::string source_, image_;

@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
         const beltrami::Mesh scan = beltrami::midpoint_subdivide(open).mesh;
         beltrami::write_obj(argv[3], scan);
         const beltrami::Topology topology = beltrami::topology(scan);
-        std::printf("%s: %d vertices, %d faces, %zu boundary loop(s), genus %d\n", argv[3], scan.vertex_count(),
+        std::printf("%s: %d vertices, %d faces, boundary loops %zu, genus %d\n", argv[3], scan.vertex_count(),
                     scan.face_count(), topology.boundary_loops.size(), topology.genus);
     } catch (const std::exception& error) {
         std::fprintf(stderr, "%s\n", error.what());

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include <beltrami/mesh/parallel.h>
+#include <beltrami/mesh/planar.h>
 
 namespace beltrami {
 
@@ -160,6 +161,25 @@ Distortion distortion(const Operators& source, const Positions& image, const Pos
     }
     return measure(source, (high - low).squaredNorm(),
                    [&](int s) { return derivatives_in_space(source, s, image, normals); });
+}
+
+namespace {
+
+/// A planar image as its planar source is seen.
+Positions seen_with(const Mesh& source, Positions image) {
+    if (is_planar(source) && seen_from_below(source)) image.col(1) *= -1;
+    return image;
+}
+
+}  // namespace
+
+Distortion distortion_to(const Mesh& source, const Mesh& image) {
+    if (is_planar(image)) return distortion(operators(source), seen_with(source, image.positions.leftCols(2)));
+    return distortion(operators(source), image.positions, vertex_normals(image));
+}
+
+Distortion distortion_to_corners(const Mesh& source, const Positions& corners) {
+    return distortion(per_corner(operators(source), source.faces), seen_with(source, corners));
 }
 
 Complex change_frame(Complex mu, double angle) {

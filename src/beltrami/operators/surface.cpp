@@ -51,9 +51,8 @@ void require_disk(const Surface& surface) {
     const Topology& topology = surface.topology;
     if (topology.components == 1 && topology.boundary_loops.size() == 1 && topology.genus == 0) return;
     throw Error(Cause::bad_mesh,
-                "the surface is not a disk: it has " + std::to_string(topology.components) + " component(s), " +
-                    std::to_string(topology.boundary_loops.size()) + " boundary loop(s) and genus " +
-                    std::to_string(topology.genus),
+                "the surface is not a disk: components " + std::to_string(topology.components) + ", boundary loops " +
+                    std::to_string(topology.boundary_loops.size()) + ", genus " + std::to_string(topology.genus),
                 "cut or fill it until one component with one boundary loop is left");
 }
 

@@ -153,9 +153,8 @@ ExtremalMap extremal_map(const Surface& source, const BoundaryCondition& boundar
     result.bounds.push_back({"mesh_harmonic", mesh_harmonic_bound(operators, result.harmonic), Bound::Of::mesh, true});
     if (std::isfinite(result.K_max)) result.bounds.push_back({"attained", result.K_max, Bound::Of::extremal, true});
     if (!result.distortion.flipped.empty())
-        result.warnings.push_back(
-            std::to_string(result.distortion.flipped.size()) +
-            " faces are flipped in the result; it is not one-to-one there and no lower bound can be given");
+        result.warnings.push_back("flipped faces in the result: " + std::to_string(result.distortion.flipped.size()) +
+                                  "; it is not one-to-one there and no lower bound can be given");
     if (result.termination == Termination::iteration_limit)
         result.warnings.push_back("stopped after " + std::to_string(result.iterations) +
                                   " iterations before k and φ settled");

@@ -92,6 +92,18 @@ TEST(Distortion, FlipsInSpaceAreJudgedByTheImagesNormals) {
     for (const int f : d.flipped) EXPECT_GT(d.face_abs_mu[f], 1);
 }
 
+TEST(Distortion, AClockwiseSourceIsLookedAtFromBelow) {
+    Mesh clockwise = test::jittered_square(6);
+    clockwise.positions.col(0) *= -1;
+    const Mesh upright = test::jittered_square(6);
+    EXPECT_LT(distortion_to(clockwise, clockwise).max, 1e-12);
+    EXPECT_EQ(distortion_to(clockwise, upright).flipped.size(), static_cast<std::size_t>(upright.face_count()));
+    EXPECT_EQ(distortion_to(upright, clockwise).flipped.size(), static_cast<std::size_t>(upright.face_count()));
+    Positions corners(clockwise.faces.corner_count(), 2);
+    for (int c = 0; c < corners.rows(); ++c) corners.row(c) = clockwise.positions.row(clockwise.faces.vertices()[c]);
+    EXPECT_LT(distortion_to_corners(clockwise, corners).max, 1e-12);
+}
+
 TEST(Distortion, CollapsedFacesAreUndefinedNotZero) {
     Mesh mesh = test::jittered_square(5);
     const Operators o = operators(mesh);
