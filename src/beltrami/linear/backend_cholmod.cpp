@@ -8,10 +8,28 @@
 #include <string>
 
 #include <beltrami/linear/backend.h>
+#include <beltrami/linear/dense.h>
 #include <beltrami/linear/symmetric_solver.h>
 #include <beltrami/mesh/error.h>
 
+extern "C" void dsyrk_(const char* uplo, const char* trans, const int* n, const int* k, const double* alpha,
+                       const double* a, const int* lda, const double* beta, double* c, const int* ldc);
+
 namespace beltrami {
+
+namespace detail {
+void use_one_blas_thread();
+}
+
+Eigen::MatrixXd gram_lower(const Eigen::MatrixXd& A) {
+    const int n = static_cast<int>(A.cols()), k = static_cast<int>(A.rows());
+    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(n, n);
+    if (n == 0 || k == 0) return result;
+    detail::use_one_blas_thread();
+    const double one = 1, zero = 0;
+    dsyrk_("L", "T", &n, &k, &one, A.data(), &k, &zero, result.data(), &n);
+    return result;
+}
 
 const char* linear_backend() {
     static const std::string name = "CHOLMOD " + std::to_string(CHOLMOD_MAIN_VERSION) + "." +
@@ -28,6 +46,8 @@ Function* loaded_function(const char* name) {
     return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));
 }
 
+}  // namespace
+
 /// One BLAS thread keeps results the same on any number of threads.
 void use_one_blas_thread() {
     static std::once_flag once;
@@ -35,6 +55,8 @@ void use_one_blas_thread() {
         if (auto* set = loaded_function<void(int)>("openblas_set_num_threads")) set(1);
     });
 }
+
+namespace {
 
 /// Keeps CHOLMOD's own OpenMP loops serial while it lives: they open a team of four threads for every supernode, which
 /// costs more than it gives (measured: half the time of a factorisation without them; docs/performance.md).

@@ -3,9 +3,16 @@
 #include <Eigen/SparseCholesky>
 
 #include <beltrami/linear/backend.h>
+#include <beltrami/linear/dense.h>
 #include <beltrami/linear/symmetric_solver.h>
 
 namespace beltrami {
+
+Eigen::MatrixXd gram_lower(const Eigen::MatrixXd& A) {
+    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(A.cols(), A.cols());
+    result.selfadjointView<Eigen::Lower>().rankUpdate(A.transpose());
+    return result;
+}
 
 const char* linear_backend() {
     return "Eigen SimplicialLDLT";

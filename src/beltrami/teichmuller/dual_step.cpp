@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <beltrami/differentials/chart_grid.h>
+#include <beltrami/linear/dense.h>
 
 namespace beltrami {
 
@@ -116,8 +117,7 @@ DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& star
                 if (view.complex) rows(row, m + j) = -ratio * column[near_zeros[i]].imag();
             }
         }
-        Eigen::MatrixXd hessian = Eigen::MatrixXd::Zero(x.size(), x.size());
-        hessian.selfadjointView<Eigen::Lower>().rankUpdate(rows.transpose());
+        Eigen::MatrixXd hessian = gram_lower(rows);
         // c itself is a null direction (N is homogeneous of degree one). On the hyperplane a multiple of p pᵀ changes
         // nothing and makes the matrix definite; the tiny shift is for functions that no quadrature point sees.
         const double mean_diagonal = hessian.trace() / static_cast<double>(x.size());

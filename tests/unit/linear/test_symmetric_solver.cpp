@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <beltrami/linear/anderson.h>
+#include <beltrami/linear/dense.h>
 #include <beltrami/linear/element_assembly.h>
 #include <beltrami/linear/symmetric_solver.h>
 #include <beltrami/mesh/error.h>
@@ -104,6 +105,13 @@ TEST(SymmetricSolver, SolvesNearbyMatricesWithAnOldFactor) {
     // Far away it gives up within the steps allowed.
     for (Eigen::Index i = 0; i < 400; ++i) solver.matrix().coeffRef(i, i) += 100.0 * static_cast<double>(i % 7);
     EXPECT_FALSE(solver.solve_near(rhs, x, 1e-12, 4));
+}
+
+TEST(Dense, GramMatrix) {
+    const Eigen::MatrixXd A = Eigen::MatrixXd::Random(37, 11);
+    const Eigen::MatrixXd expected = (A.transpose() * A).triangularView<Eigen::Lower>();
+    EXPECT_LT((gram_lower(A) - expected).norm(), 1e-13);
+    EXPECT_EQ(gram_lower(Eigen::MatrixXd(0, 3)), Eigen::MatrixXd::Zero(3, 3));
 }
 
 TEST(ElementAssembly, PutsElementsWhereTheyBelong) {
