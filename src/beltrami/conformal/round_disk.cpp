@@ -185,8 +185,8 @@ Chart compute_chart(const Surface& source, const BeltramiSolver* dirichlet, cons
     } else {
         FlattenOptions flatten_options;
         flatten_options.tolerance = kFlattenTolerance;
-        const Flattening flat =
-            source.metric ? flatten(source.mesh, *source.metric, flatten_options) : flatten(source.mesh, flatten_options);
+        const Flattening flat = source.metric ? flatten(source.mesh, *source.metric, flatten_options)
+                                              : flatten(source.mesh, flatten_options);
         w = flat.positions;
         factorizations += flat.factorizations;
     }

@@ -13,7 +13,8 @@ double harmonic_seconds(const Surface& source, const BoundaryCondition& boundary
     for (double& s : seconds) {
         const auto start = std::chrono::steady_clock::now();
         // Part of the work, though the same as the source's own.
-        const Operators assembled = source.metric ? operators_from_corners(source.mesh, *source.metric) : operators(source.mesh);
+        const Operators assembled =
+            source.metric ? operators_from_corners(source.mesh, *source.metric) : operators(source.mesh);
         (void)assembled;
         harmonic_map(source, boundary);
         s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

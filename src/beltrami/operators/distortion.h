@@ -38,9 +38,9 @@ Distortion distortion(const Operators& source, const Eigen::VectorXcd& map);
 /// @param normals as above; ignored for #V×2
 Distortion distortion(const Operators& source, const Positions& image, const Positions& normals = {});
 
-/// Distortion of the map between two meshes with the same faces. A planar image of a planar source is looked at from the side
-/// from which the source's faces run counter-clockwise; any other planar image from above; an image in space is judged
-/// by its own vertex normals.
+/// Distortion of the map between two meshes with the same faces. A planar image of a planar source is looked at from
+/// the side from which the source's faces run counter-clockwise; any other planar image from above; an image in space
+/// is judged by its own vertex normals.
 /// @pre same vertices and faces, finite positions
 Distortion distortion_to(const Mesh& source, const Mesh& image);
 

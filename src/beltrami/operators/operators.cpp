@@ -239,7 +239,8 @@ Positions texture_corners(const Mesh& mesh) {
                             "every face needs vt", {f});
             corners.row(c) = mesh.texture->points.row(t).head(2);
             if (!corners.row(c).allFinite())
-                throw Error(Cause::bad_mesh, "face " + std::to_string(f) + " has texture coordinates that are not finite",
+                throw Error(Cause::bad_mesh,
+                            "face " + std::to_string(f) + " has texture coordinates that are not finite",
                             "repair the vt of its corners", {f});
         }
     return corners;

@@ -67,9 +67,10 @@ struct EdgeLength {
     double length;
 };
 
-/// A custom metric by edge lengths, as the shape of every face: one point per face corner (#corners×2), the first edge on
-/// the real axis.
-/// @throw Error bad_mesh for missing, repeated, unknown or non-positive lengths, for triangles that violate the triangle
+/// A custom metric by edge lengths, as the shape of every face: one point per face corner (#corners×2), the first edge
+/// on the real axis.
+/// @throw Error bad_mesh for missing, repeated, unknown or non-positive lengths, for triangles that violate the
+/// triangle
 ///        inequality (named), and for quads, whose shape edge lengths do not determine.
 Positions corners_from_lengths(const Mesh& mesh, std::span<const EdgeLength> lengths);
 

@@ -81,7 +81,8 @@ HamiltonState coarse_start(const Surface& source, const BoundaryCondition& bound
     CoefficientStep coefficient_step(model, model_chart, phase, options.cluster_count);
     HamiltonIteration iteration(model, solver, prescribed, coefficient_step, coarse_options);
     HamiltonState state;
-    // The degrees that the fine mesh resolves: on the coarse one the highest are rough, which is good enough for a start.
+    // The degrees that the fine mesh resolves: on the coarse one the highest are rough, which is good enough for a
+    // start.
     const int largest_degree = PolynomialSpace::largest_degree(source.operators.sample_count());
     iteration.run(state, solver.solve(prescribed), PolynomialSpace::starting_space(largest_degree), false);
     return state;

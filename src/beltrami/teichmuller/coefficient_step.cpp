@@ -75,8 +75,8 @@ CoefficientStep::Result CoefficientStep::solve(const Eigen::VectorXcd& mu, const
     problem_.pairing = sums.col(0);
     problem_.correction.resize(0);
     if (length_at > 0)
-        problem_.correction =
-            sums.col(1) - dual_gradient(problem_.basis, problem_.weights, problem_.basis * at, problem_.rounding * length_at);
+        problem_.correction = sums.col(1) - dual_gradient(problem_.basis, problem_.weights, problem_.basis * at,
+                                                          problem_.rounding * length_at);
     const DualSolution dual = solve_dual(problem_, at);
 
     Result result;

@@ -13,7 +13,7 @@ class CoefficientStep {
         Eigen::VectorXcd direction;  ///< coefficients of φ, of length 1; 0 if nothing pairs with μ
         Eigen::VectorXcd phi;        ///< #S values of φ for these coefficients
         double k = 0;
-        bool converged = false;      ///< of the convex problem
+        bool converged = false;  ///< of the convex problem
     };
 
     /// @param source, chart kept by reference

@@ -94,8 +94,8 @@ DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& star
         sizes = sizes.cwiseMax(kFloor * sizes.maxCoeff());
         const Eigen::VectorXd gradient = view.covector(dual_gradient(problem.basis, problem.weights, phi, delta)) + q;
 
-        // Hessian Σ w/s (Im(eφ_i) Im(eφ_j) + (δ/s)² Re(eφ_i) Re(eφ_j)) with s = √(|φ|²+δ²), e = conj(φ)/|φ|: a product of scaled
-        // rows. The second kind of row matters only near zeros of φ.
+        // Hessian Σ w/s (Im(eφ_i) Im(eφ_j) + (δ/s)² Re(eφ_i) Re(eφ_j)) with s = √(|φ|²+δ²), e = conj(φ)/|φ|: a product
+        // of scaled rows. The second kind of row matters only near zeros of φ.
         std::vector<Eigen::Index> near_zeros;
         for (Eigen::Index i = 0; i < points; ++i)
             if (delta * delta > kNearZero * sizes[i] * sizes[i]) near_zeros.push_back(i);

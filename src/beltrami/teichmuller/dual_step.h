@@ -18,8 +18,8 @@ struct DualProblem {
     /// a coarse quadrature. The minimum of the corrected problem is the exact one as soon as q is taken there.
     Eigen::VectorXcd correction;
     bool complex_coefficients;  ///< c complex, or real
-    /// |φ| is taken as √(|φ|² + δ²), δ = rounding · |c₀| with c₀ the start: smooth where a zero of φ meets a quadrature point,
-    /// at which |φ| itself has a kink that stops Newton.
+    /// |φ| is taken as √(|φ|² + δ²), δ = rounding · |c₀| with c₀ the start: smooth where a zero of φ meets a quadrature
+    /// point, at which |φ| itself has a kink that stops Newton.
     double rounding = 0;
 };
 
@@ -28,7 +28,8 @@ struct DualSolution {
     double pairing = 0;             ///< Re Σ p_j c_j: 1, or 0 if the pairing vanishes
     double norm = 0;                ///< N(c), correction included
     int newton_steps = 0;
-    bool converged = false;         ///< false: the steps allowed did not suffice, or no step descends although the slope is not 0
+    bool converged =
+        false;  ///< false: the steps allowed did not suffice, or no step descends although the slope is not 0
 };
 
 /// @param start coefficients to start from (may be shorter than m: padded by zeros; may be empty); ignored when its
@@ -36,8 +37,8 @@ struct DualSolution {
 ///              not positive
 DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& start, int max_newton_steps = 50);
 
-/// m values Σ w conj(φ)/√(|φ|²+δ²) φ_j: the gradient of Σ w √(|φ_c|²+δ²) as a complex covector. The root is floored at 1e-12
-/// of its maximum.
+/// m values Σ w conj(φ)/√(|φ|²+δ²) φ_j: the gradient of Σ w √(|φ_c|²+δ²) as a complex covector. The root is floored at
+/// 1e-12 of its maximum.
 Eigen::VectorXcd dual_gradient(const Eigen::MatrixXcd& basis, const Eigen::VectorXd& weights,
                                const Eigen::VectorXcd& phi, double delta = 0);
 

@@ -5,11 +5,11 @@
 #include <limits>
 #include <string>
 
-#include <beltrami/mesh/polygon.h>
 #include <beltrami/conformal/round_disk.h>
 #include <beltrami/differentials/polynomial_space.h>
 #include <beltrami/maps/beltrami_solver.h>
 #include <beltrami/mesh/error.h>
+#include <beltrami/mesh/polygon.h>
 #include <beltrami/teichmuller/coarse_start.h>
 
 namespace beltrami {
@@ -48,12 +48,15 @@ void require_possible(const BoundaryCondition& boundary, const Surface& source) 
             named += (named.empty() ? "" : " and ") + std::to_string(loop[edge]);
         }
         throw Error(Cause::bad_boundary,
-                    "the boundary values coincide, turn back or cross themselves at the boundary edges that begin at the vertices " + named,
+                    "the boundary values coincide, turn back or cross themselves at the boundary edges that begin at "
+                    "the vertices " +
+                        named,
                     "no one-to-one map has them; prescribe a simple curve", std::move(vertices));
     }
 }
 
-/// √ of the mean of |μ − k conj(φ)/|φ||², |μ| held at 1: how far a map is from the coefficient that the theory promises.
+/// √ of the mean of |μ − k conj(φ)/|φ||², |μ| held at 1: how far a map is from the coefficient that the theory
+/// promises.
 double deviation(const Operators& operators, const Eigen::VectorXcd& mu, const Eigen::VectorXcd& phi, double k) {
     double sum = 0, area = 0;
     for (int s = 0; s < operators.sample_count(); ++s) {
@@ -123,7 +126,8 @@ ExtremalMap extremal_map(const Surface& source, const BoundaryCondition& boundar
     HamiltonState state = coarse_start(source, boundary, chart, phase, options);
     CoefficientStep coefficient_step(source, chart, phase, options.cluster_count);
     HamiltonIteration iteration(source, solver, prescribed, coefficient_step, options);
-    iteration.run(state, result.harmonic, PolynomialSpace::starting_space(PolynomialSpace::largest_degree(operators.sample_count())), true);
+    iteration.run(state, result.harmonic,
+                  PolynomialSpace::starting_space(PolynomialSpace::largest_degree(operators.sample_count())), true);
     result.map = iteration.map();
     result.history = iteration.history();
     result.iterations = iteration.iterations();
@@ -160,7 +164,8 @@ ExtremalMap extremal_map(const Surface& source, const BoundaryCondition& boundar
                                   " iterations before k and φ settled");
     if (result.k > 1e-3 && deviation(operators, result.distortion.mu, step.phi, result.k) > kRough * result.k)
         result.warnings.push_back(
-            "the map is far from constant dilatation: the mesh is too coarse for its shape, or the extremal map is not smooth; "
+            "the map is far from constant dilatation: the mesh is too coarse for its shape, or the extremal map is not "
+            "smooth; "
             "K is a rough estimate and K_lower may be far below K*");
     return result;
 }

@@ -39,10 +39,11 @@ struct ExtremalMap {
     Eigen::VectorXcd phi;  ///< #S quadratic differential in the samples' frames; 0 where the chart excludes the sample
     Eigen::VectorXcd harmonic;  ///< #V the harmonic start
     Distortion distortion;      ///< of map
-    /// An estimate of k* and K*: √(I⁺/I⁻) = (1+k)/(1−k) for the map and the φ of its c-step, with the quadrature of the bounds.
+    /// An estimate of k* and K*: √(I⁺/I⁻) = (1+k)/(1−k) for the map and the φ of its c-step, with the quadrature of the
+    /// bounds.
     double k = 0, K = 1;
-    double K_lower = 1;         ///< largest Reich-Strebel bound; 1 if there is none
-    double K_max = 0;           ///< largest K of a face; infinite if faces are flipped or collapsed
+    double K_lower = 1;  ///< largest Reich-Strebel bound; 1 if there is none
+    double K_max = 0;    ///< largest K of a face; infinite if faces are flipped or collapsed
     std::vector<Bound> bounds;
     double boundary_residual = 0;  ///< largest distance of a prescribed vertex from its image
     Termination termination = Termination::converged;

@@ -99,8 +99,8 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
             throw Error(Cause::cancelled, "cancelled after iteration " + std::to_string(iterations_));
 
         // Where k vanishes the direction of φ means nothing.
-        const bool settled =
-            step_.converged && k_change < options_.tolerance && (change < options_.tolerance || step_.k < options_.tolerance);
+        const bool settled = step_.converged && k_change < options_.tolerance &&
+                             (change < options_.tolerance || step_.k < options_.tolerance);
         // Growing is decided where the map is exact to rounding, which must not turn the decision: at the start
         // (above), at the first map that comes from another mesh's φ, and in the end.
         if ((from_elsewhere && iterations_ == 1) || (settled && may_grow_in_the_end)) {

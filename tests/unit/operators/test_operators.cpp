@@ -75,7 +75,8 @@ TEST(Operators, FromLengthsEqualThoseOfTheSurface) {
     const Mesh mesh = test::bump(300);
     std::vector<EdgeLength> lengths;
     for (const auto& [a, b] : topology(mesh).edges) lengths.push_back({b, a, (mesh.point(a) - mesh.point(b)).norm()});
-    const Operators of_lengths = operators_from_corners(mesh, corners_from_lengths(mesh, lengths)), of_surface = operators(mesh);
+    const Operators of_lengths = operators_from_corners(mesh, corners_from_lengths(mesh, lengths)),
+                    of_surface = operators(mesh);
     for (std::size_t i = 0; i < of_surface.gradients.size(); ++i)
         EXPECT_NEAR(std::abs(of_lengths.gradients[i] - of_surface.gradients[i]), 0,
                     1e-9 * std::abs(of_surface.gradients[i]));

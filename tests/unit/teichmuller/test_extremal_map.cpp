@@ -5,8 +5,8 @@
 #include <numeric>
 
 #include <beltrami/conformal/boundary_values.h>
-#include <beltrami/maps/beltrami_solver.h>
 #include <beltrami/generate/sphere.h>
+#include <beltrami/maps/beltrami_solver.h>
 #include <beltrami/mesh/error.h>
 #include <beltrami/mesh/parallel.h>
 #include <beltrami/teichmuller/extremal_map.h>
@@ -60,7 +60,8 @@ TEST_P(Invariance, PlaceAndScaleInThePlane) {
     for (const double scale : {1e-6, 1e6}) {
         Problem moved = flat;
         for (int v = 0; v < moved.mesh.vertex_count(); ++v) {
-            const Complex z = scale * (std::polar(1.0, 1.0) * Complex(moved.mesh.positions(v, 0), moved.mesh.positions(v, 1)) + 5.0);
+            const Complex z =
+                scale * (std::polar(1.0, 1.0) * Complex(moved.mesh.positions(v, 0), moved.mesh.positions(v, 1)) + 5.0);
             moved.mesh.positions.row(v) << z.real(), z.imag(), 0;
         }
         EXPECT_NEAR(moved.solve().k / k, 1, 1e-8) << scale;
@@ -146,7 +147,8 @@ TEST(ExtremalMap, ACustomMetricIsTheSourceThatCounts) {
     for (int c = 0; c < corners.rows(); ++c) corners.row(c) = shape.positions.row(flat.faces.vertices()[c]);
     std::vector<EdgeLength> lengths;
     const Surface expected(shape);
-    for (const auto& [a, b] : expected.topology.edges) lengths.push_back({a, b, (shape.point(a) - shape.point(b)).norm()});
+    for (const auto& [a, b] : expected.topology.edges)
+        lengths.push_back({a, b, (shape.point(a) - shape.point(b)).norm()});
     const ExtremalMap truth = extremal_map(expected, boundary_to_disk(expected, 0.7));
     EXPECT_GT(truth.k, 0.05);
     for (const Positions& metric : {corners, corners_from_lengths(flat, lengths)}) {
@@ -202,13 +204,15 @@ TEST(ExtremalMap, BoundaryValuesThatNoMapHasAreRefused) {
     };
     EXPECT_TRUE(refused([](Complex z) { return std::conj(z); }));
     EXPECT_TRUE(refused([](Complex) { return Complex(1, 1); }));
-    EXPECT_TRUE(refused([](Complex z) { return std::polar(1.0, std::arg(z) + 1.4 * std::sin(std::arg(z))); }));  // runs backwards
-    EXPECT_TRUE(refused([](Complex z) { return z + 0.9 * z * z * z; }));                                        // crosses itself
+    EXPECT_TRUE(refused(
+        [](Complex z) { return std::polar(1.0, std::arg(z) + 1.4 * std::sin(std::arg(z))); }));  // runs backwards
+    EXPECT_TRUE(refused([](Complex z) { return z + 0.9 * z * z * z; }));                         // crosses itself
     EXPECT_FALSE(refused([](Complex z) { return z + 0.2 * z * z; }));
 }
 
 TEST(ExtremalMap, MeshesWithoutInnerVertices) {
-    // A strip of triangles with a bend, in the plane and in space: every vertex is prescribed, the map is its own result.
+    // A strip of triangles with a bend, in the plane and in space: every vertex is prescribed, the map is its own
+    // result.
     for (const double height : {0.0, 0.4}) {
         Mesh mesh;
         mesh.positions.resize(8, 3);
