@@ -32,6 +32,7 @@ double enclosed_area(const Surface& source, const BoundaryCondition& boundary) {
     double area = 0;
     for (const auto& loop : source.topology.boundary_loops) {
         std::vector<Complex> polygon;
+        polygon.reserve(loop.size());
         for (const int v : loop) polygon.push_back(images[v]);
         area += signed_area(polygon);
     }

@@ -55,7 +55,7 @@ void SampledSpace::set(const DifferentialSpace& space) {
 }
 
 Eigen::VectorXcd SampledSpace::combination(const Eigen::VectorXcd& coefficients) const {
-    const Eigen::VectorXcd values = values_ * coefficients;
+    Eigen::VectorXcd values = values_ * coefficients;
     if (!interpolates()) return values;
     Eigen::VectorXcd phi = Eigen::VectorXcd::Zero(chart_.positions.size());
     parallel_for(

@@ -2,6 +2,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <set>
@@ -203,7 +204,8 @@ void read_row(Body& body, const Element& element, std::optional<std::size_t> wan
         const double length = body.value(*property.length_type);
         if (!(length >= 0) || length != std::floor(length)) body.fail(fmt::format("a list has {} entries", length));
         if (wanted == i) list.clear();
-        for (double entry = 0; entry < length; ++entry) {  // a false length ends with the data
+        const auto count = static_cast<std::uint64_t>(std::min(length, 1e18));
+        for (std::uint64_t entry = 0; entry < count; ++entry) {  // a false length ends with the data
             const double value = body.value(property.type);
             if (wanted == i) list.push_back(value);
         }

@@ -78,7 +78,7 @@ struct SymmetricSolver::Backend {
 
 SymmetricSolver::SymmetricSolver(Matrix lower, int expected_factorizations) : backend_(std::make_unique<Backend>()) {
     lower.makeCompressed();
-    backend_->lower = std::move(lower);
+    backend_->lower.swap(lower);  // Eigen's sparse matrices are not moved by assignment
     backend_->expected_factorizations = expected_factorizations;
     if (backend_->lower.rows() > 0) backend_->cholesky = detail::make_backend(backend_->lower, expected_factorizations);
 }

@@ -49,6 +49,7 @@ bool indices_are_usable(const Mesh& mesh) {
 /// Signed area that a loop encloses in the xy-plane.
 double enclosed_area(const Mesh& mesh, const std::vector<int>& loop) {
     std::vector<Complex> polygon;
+    polygon.reserve(loop.size());
     for (const int vertex : loop) polygon.emplace_back(mesh.positions(vertex, 0), mesh.positions(vertex, 1));
     return signed_area(polygon);
 }
