@@ -10,7 +10,7 @@ namespace beltrami {
 /// Only the lower triangle is stored. The backend (CHOLMOD, or Eigen's Cholesky) is hidden.
 ///
 ///     SymmetricSolver solver(pattern, 10);      // ordering and symbolic analysis, once
-///     solver.values() = …;                      // as often as you like:
+///     solver.matrix().coeffs() = …;             // new values, as often as you like:
 ///     solver.factorize();
 ///     x = solver.solve(rhs);
 class SymmetricSolver {

@@ -165,8 +165,7 @@ ExtremalMap extremal_map(const Surface& source, const BoundaryCondition& boundar
     if (result.k > 1e-3 && deviation(operators, result.distortion.mu, step.phi, result.k) > kRough * result.k)
         result.warnings.push_back(
             "the map is far from constant dilatation: the mesh is too coarse for its shape, or the extremal map is not "
-            "smooth; "
-            "K is a rough estimate and K_lower may be far below K*");
+            "smooth; K is a rough estimate and K_lower may be far below K*");
     return result;
 }
 
