@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -15,7 +17,21 @@ struct Chart {
     Eigen::VectorXcd derivatives;  ///< #S ∂ of the chart in the samples' frames
     std::vector<char> excluded;    ///< #S 1 where the chart turns the sample over: its ψ means nothing there
     int excluded_faces = 0;
-    bool exact = false;  ///< the chart is the identity up to a similarity, so pulled-back ψ are truly holomorphic
+    /// The chart is holomorphic on the plane of the mesh (a similarity, or analytic below), so that pulled-back ψ are
+    /// truly holomorphic.
+    bool exact = false;
+    /// Of an exact chart that is no similarity: its position and derivative at a place of planar_coordinates(mesh).
+    /// Positions and derivatives are its values at the samples. Empty otherwise.
+    std::function<std::array<Complex, 2>(Complex)> analytic;
+
+    /// A hole of the canonical domain.
+    struct Hole {
+        int loop;        ///< of the source's boundary loops
+        Complex centre;  ///< a place well inside
+        double radius;   ///< about its size: every rim vertex is at least half of it away from the centre
+    };
+    int outer_loop = 0;       ///< the boundary loop that goes to the unit circle
+    std::vector<Hole> holes;  ///< one for every other loop, in their order
     int factorizations = 0;
     std::vector<std::string> warnings;
 };

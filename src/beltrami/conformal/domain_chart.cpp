@@ -1,0 +1,225 @@
+#include <beltrami/conformal/domain_chart.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include <beltrami/conformal/circle_fit.h>
+#include <beltrami/conformal/fill_holes.h>
+#include <beltrami/conformal/hole_centre.h>
+#include <beltrami/mesh/error.h>
+#include <beltrami/mesh/parallel.h>
+#include <beltrami/mesh/planar.h>
+
+namespace beltrami {
+
+namespace {
+
+void require_loops(const Surface& source, int outer_loop) {
+    const Topology& topology = source.topology;
+    const int loops = static_cast<int>(topology.boundary_loops.size());
+    if (topology.components != 1 || topology.genus != 0 || loops == 0)
+        throw Error(Cause::bad_mesh,
+                    "a chart needs one component of genus 0 with boundary; the surface has " +
+                        std::to_string(topology.components) + " components, genus " + std::to_string(topology.genus) +
+                        " and " + std::to_string(loops) + " boundary loops",
+                    "cut it until it has");
+    if (outer_loop < 0 || outer_loop >= loops)
+        throw Error(
+            Cause::bad_option,
+            "there is no boundary loop " + std::to_string(outer_loop) + ": the surface has " + std::to_string(loops),
+            "loops are counted from 0, the outer one first");
+}
+
+std::vector<Complex> points_of(const std::vector<int>& loop, const Eigen::VectorXcd& z) {
+    std::vector<Complex> points;
+    points.reserve(loop.size());
+    for (const int v : loop) points.push_back(z[v]);
+    return points;
+}
+
+std::vector<double> vertex_areas(const Operators& operators) {
+    std::vector<double> area(operators.vertex_count, 0.0);
+    for (int s = 0; s < operators.sample_count(); ++s) {
+        const auto stencil = operators.stencil(s);
+        for (const int v : stencil) area[v] += operators.weights[s] / static_cast<double>(stencil.size());
+    }
+    return area;
+}
+
+/// (a z + b)/(c z + d).
+struct Moebius {
+    Complex a, b, c, d;
+    std::array<Complex, 2> operator()(Complex z) const {
+        const Complex inverse = 1.0 / (c * z + d);
+        return {(a * z + b) * inverse, (a * d - b * c) * inverse * inverse};
+    }
+};
+
+/// The exterior of a circle to the unit disk, with the mean of the weighted points at 0.
+Moebius inversion(const CircleFit& circle, const Eigen::VectorXcd& z, const std::vector<double>& weights) {
+    Moebius map{0, circle.radius, 1, -circle.centre};
+    double total = 0;
+    for (const double w : weights) total += w;
+    for (int step = 0; step < 200; ++step) {
+        Complex mean = 0;
+        for (Eigen::Index v = 0; v < z.size(); ++v)
+            if (weights[v] > 0) mean += weights[v] * map(z[v])[0];
+        mean /= total;
+        if (std::abs(mean) < 1e-14) break;
+        // (w − mean)/(1 − conj(mean) w) after the map.
+        map = {map.a - mean * map.c, map.b - mean * map.d, map.c - std::conj(mean) * map.a,
+               map.d - std::conj(mean) * map.b};
+    }
+    return map;
+}
+
+/// Positions and derivatives by a map that is analytic on the plane of the mesh.
+template <class Map>
+void evaluate_exactly(const Surface& source, const Map& map, Chart& chart) {
+    const Eigen::VectorXcd z = planar_coordinates(source.mesh), places = at_samples(source.operators, z);
+    chart.vertices.setZero(z.size());
+    chart.positions.resize(places.size());
+    chart.derivatives.resize(places.size());
+    for (const int v : source.mesh.faces.vertices()) chart.vertices[v] = map(z[v])[0];
+    parallel_for(0, static_cast<int>(places.size()), [&](int first, int last) {
+        for (int s = first; s < last; ++s) {
+            const auto [value, derivative] = map(places[s]);
+            chart.positions[s] = value;
+            chart.derivatives[s] = derivative;
+        }
+    });
+}
+
+/// The chart of a source whose outer loop lies on a circle of its plane.
+Chart exact_chart(const Surface& source, int outer_loop, const CircleFit& circle, const Eigen::VectorXcd& z) {
+    if (outer_loop == 0) return make_chart(source, (z.array() - circle.centre) / circle.radius, true);
+    Chart chart;
+    const Moebius map = inversion(circle, z, vertex_areas(source.operators));
+    chart.exact = true;
+    chart.analytic = map;
+    chart.excluded.assign(source.operators.sample_count(), 0);
+    evaluate_exactly(source, map, chart);
+    return chart;
+}
+
+/// The round disk's chart of the filled surface, on all its vertices.
+Chart filled_chart(const Surface& source, int outer_loop, const RoundDiskOptions& options) {
+    FilledSurface filled = fill_holes(source, outer_loop);
+    if (filled.metric) return round_disk_chart(Surface(std::move(filled.mesh), std::move(*filled.metric)), options);
+    return round_disk_chart(Surface(std::move(filled.mesh)), options);
+}
+
+/// A planar source with one of its holes on the outside: 1/(z − c) with c in the hole. None if faces are turned over.
+std::optional<Surface> turned_inside_out(const Surface& source, int outer_loop, const Eigen::VectorXcd& z) {
+    const HoleCentre hole = hole_centre(points_of(source.topology.boundary_loops[outer_loop], z));
+    Mesh mesh;
+    mesh.faces = source.mesh.faces;
+    mesh.positions = Positions::Zero(z.size(), 2);
+    for (const int v : mesh.faces.vertices()) {
+        const Complex w = hole.radius / (z[v] - hole.centre);
+        mesh.positions.row(v) << w.real(), w.imag();
+    }
+    try {
+        return Surface(std::move(mesh));
+    } catch (const Error&) {
+        return {};
+    }
+}
+
+Chart approximate_chart(const Surface& source, int outer_loop, const Eigen::VectorXcd& z,
+                        const DomainChartOptions& options) {
+    Chart filled;
+    std::optional<Surface> inside_out;
+    if (source.in_plane() && outer_loop != 0) inside_out = turned_inside_out(source, outer_loop, z);
+    const int vertex = source.topology.boundary_loops[outer_loop][0];
+    if (inside_out && inside_out->topology.boundary_loops[0][0] == vertex)
+        filled = filled_chart(*inside_out, 0, options.disk);
+    else
+        filled = filled_chart(source, outer_loop, options.disk);
+    Eigen::VectorXcd g = filled.vertices.head(source.mesh.vertex_count());
+    centre_in_disk(g, vertex_areas(source.operators));
+    Chart chart = make_chart(source, std::move(g), false);
+    chart.factorizations = filled.factorizations;
+    return chart;
+}
+
+/// Faces that a map of the vertices turns over and the chart does not.
+int newly_turned(const Surface& source, const Chart& chart, const Eigen::VectorXcd& vertices) {
+    int turned = 0;
+    for (int s = 0; s < source.operators.sample_count(); ++s) {
+        if (chart.excluded[s]) continue;
+        const auto [dz, dzbar] = source.operators.derivatives(s, vertices);
+        turned += !(std::abs(dzbar) < std::abs(dz));
+    }
+    return turned;
+}
+
+void make_holes_round(const Surface& source, const DomainChartOptions& options, Chart& chart) {
+    std::vector<std::vector<Complex>> rims;
+    double worst = 1;
+    for (int l = 0; l < static_cast<int>(source.topology.boundary_loops.size()); ++l) {
+        if (l == chart.outer_loop) continue;
+        rims.push_back(points_of(source.topology.boundary_loops[l], chart.vertices));
+        worst = std::max(worst, hole_centre(rims.back()).ratio);
+    }
+    if (!(worst > options.round_from)) return;
+    const HoleRounding rounding = round_holes(std::move(rims), options.rounding);
+    if (rounding.steps.empty()) return;
+
+    Chart rounder = chart;
+    if (chart.exact) {
+        const auto before = chart.analytic;
+        const Complex scale = chart.derivatives[0],
+                      origin =
+                          chart.positions[0] - scale * at_samples(source.operators, planar_coordinates(source.mesh))[0];
+        rounder.analytic = [before, rounding, scale, origin](Complex z) -> std::array<Complex, 2> {
+            const auto [g, slope] = before ? before(z) : std::array<Complex, 2>{scale * z + origin, scale};
+            const auto [value, derivative] = rounding(g);
+            return {value, derivative * slope};
+        };
+        evaluate_exactly(source, rounder.analytic, rounder);
+    } else {
+        parallel_for(0, static_cast<int>(chart.vertices.size()), [&](int first, int last) {
+            for (int v = first; v < last; ++v) rounder.vertices[v] = rounding(chart.vertices[v])[0];
+        });
+        parallel_for(0, static_cast<int>(chart.positions.size()), [&](int first, int last) {
+            for (int s = first; s < last; ++s) {
+                const auto [value, derivative] = rounding(chart.positions[s]);
+                rounder.positions[s] = value;
+                rounder.derivatives[s] = derivative * chart.derivatives[s];
+            }
+        });
+    }
+    if (newly_turned(source, chart, rounder.vertices) == 0) chart = std::move(rounder);
+}
+
+}  // namespace
+
+Chart domain_chart(const Surface& source, int outer_loop, const BeltramiSolver* dirichlet,
+                   const DomainChartOptions& options) {
+    require_loops(source, outer_loop);
+    const auto& loops = source.topology.boundary_loops;
+    if (loops.size() == 1)
+        return dirichlet ? round_disk_chart(source, *dirichlet, options.disk) : round_disk_chart(source, options.disk);
+
+    Eigen::VectorXcd z;
+    std::optional<CircleFit> circle;
+    if (source.in_plane()) {
+        z = planar_coordinates(source.mesh);
+        circle = fit_circle(points_of(loops[outer_loop], z));
+    }
+    Chart chart = circle && circle->exact() ? exact_chart(source, outer_loop, *circle, z)
+                                            : approximate_chart(source, outer_loop, z, options);
+    chart.outer_loop = outer_loop;
+    make_holes_round(source, options, chart);
+    for (int l = 0; l < static_cast<int>(loops.size()); ++l) {
+        if (l == outer_loop) continue;
+        const HoleCentre hole = hole_centre(points_of(loops[l], chart.vertices));
+        chart.holes.push_back({l, hole.centre, hole.radius});
+    }
+    return chart;
+}
+
+}  // namespace beltrami

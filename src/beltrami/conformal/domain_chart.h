@@ -1,0 +1,35 @@
+#pragma once
+
+#include <beltrami/conformal/hole_rounding.h>
+#include <beltrami/conformal/round_disk.h>
+
+namespace beltrami {
+
+struct DomainChartOptions {
+    double round_from = 1.2;  ///< holes are made rounder where one has a larger ratio (hole_centre.h); infinite: never
+    HoleRoundingOptions rounding = {};
+    RoundDiskOptions disk = {};
+};
+
+/// The conformal map of a surface of genus 0 with any number of boundary loops to the unit disk with holes, @p
+/// outer_loop on the unit circle, normalised so that the source's area is centred at 0.
+///
+/// - A disk: round_disk_chart.
+/// - A planar source whose outer loop lies on a circle: a similarity if it is the geometric outer loop, else the
+///   inversion in it followed by a Möbius map of the disk (exact = true, analytic).
+/// - Otherwise the other loops are filled (fill_holes) and the chart is the round disk's of the filled surface. A
+/// planar
+///   source with another outer loop than the geometric one is first turned inside out, by inversion in a place inside
+///   that loop.
+///
+/// Then, where holes are far from round, they are made rounder by an analytic map (round_holes); where that does not
+/// succeed the chart is kept as it is. It improves only how well series about the centres of the holes are
+/// conditioned.
+/// @param dirichlet a solver that fixes exactly the boundary, factorised for the coefficient 0, or null; of use for a
+///                  disk only
+/// @throw Error bad_option if there is no such loop; bad_mesh unless there is one component of genus 0 with boundary;
+///        not_solved
+Chart domain_chart(const Surface& source, int outer_loop = 0, const BeltramiSolver* dirichlet = nullptr,
+                   const DomainChartOptions& options = {});
+
+}  // namespace beltrami

@@ -1,0 +1,97 @@
+#include <beltrami/conformal/hole_centre.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <beltrami/conformal/circle_fit.h>
+#include <beltrami/mesh/polygon.h>
+
+namespace beltrami {
+
+namespace {
+
+constexpr double kNearlyRound = 1.2;
+
+/// Distance from the sides, negative outside.
+double depth(const std::vector<Complex>& polygon, Complex p) {
+    double nearest = std::numeric_limits<double>::infinity(), turned = 0;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Complex a = polygon[i], b = polygon[i + 1 < polygon.size() ? i + 1 : 0];
+        if (a == p) return 0;
+        const double length = std::norm(b - a);
+        const double t = length > 0 ? std::clamp(std::real(std::conj(b - a) * (p - a)) / length, 0.0, 1.0) : 0;
+        nearest = std::min(nearest, std::abs(p - (a + t * (b - a))));
+        turned += std::arg((b - p) / (a - p));
+    }
+    return std::abs(turned) > 3 ? nearest : -nearest;
+}
+
+/// Centre of the polygon's area.
+Complex area_centre(const std::vector<Complex>& polygon) {
+    Complex moment = 0;
+    double total = 0;
+    for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
+        const double area = signed_area(polygon[0], polygon[i], polygon[i + 1]);
+        moment += area / 3 * ((polygon[i] - polygon[0]) + (polygon[i + 1] - polygon[0]));
+        total += area;
+    }
+    return polygon[0] + (total != 0 ? moment / total : 0);
+}
+
+/// Grid search with shrinking cells, in a frame tied to the polygon.
+Complex deepest(const std::vector<Complex>& polygon, Complex start) {
+    Complex axis = 0;
+    for (const Complex z : polygon)
+        if (std::abs(z - start) > std::abs(axis)) axis = z - start;
+    Complex best = start;
+    double best_depth = depth(polygon, start);
+    for (double half = std::abs(axis); half > 1e-3 * std::abs(axis); half *= 0.2) {
+        const Complex middle = best, step = axis / std::abs(axis) * (half / 8);
+        for (int i = -8; i <= 8; ++i)
+            for (int j = -8; j <= 8; ++j) {
+                const Complex p = middle + step * Complex(i, j);
+                const double d = depth(polygon, p);
+                if (d > best_depth) {
+                    best_depth = d;
+                    best = p;
+                }
+            }
+    }
+    return best;
+}
+
+struct Distances {
+    double smallest, mean, largest;
+};
+
+Distances distances(const std::vector<Complex>& polygon, Complex centre) {
+    Distances d{std::numeric_limits<double>::infinity(), 0, 0};
+    for (const Complex z : polygon) {
+        const double r = std::abs(z - centre);
+        d.smallest = std::min(d.smallest, r);
+        d.mean += r / static_cast<double>(polygon.size());
+        d.largest = std::max(d.largest, r);
+    }
+    return d;
+}
+
+}  // namespace
+
+HoleCentre hole_centre(const std::vector<Complex>& polygon) {
+    const CircleFit circle = fit_circle(polygon);
+    if (circle.ratio() <= kNearlyRound && depth(polygon, circle.centre) > 0)
+        return {circle.centre, circle.radius, circle.ratio()};
+    HoleCentre result;
+    result.centre = area_centre(polygon);
+    Distances d = distances(polygon, result.centre);
+    if (!(depth(polygon, result.centre) > 0.4 * d.mean)) {
+        result.centre = deepest(polygon, result.centre);
+        d = distances(polygon, result.centre);
+    }
+    result.radius = std::min(d.mean, 2 * d.smallest);
+    result.ratio = d.smallest > 0 ? d.largest / d.smallest : std::numeric_limits<double>::infinity();
+    return result;
+}
+
+}  // namespace beltrami
