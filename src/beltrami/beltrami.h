@@ -16,8 +16,10 @@
 #include <beltrami/io/write_mesh.h>
 #include <beltrami/locate/planar_locator.h>
 #include <beltrami/maps/beltrami_solver.h>
+#include <beltrami/maps/boundary_feasibility.h>
 #include <beltrami/maps/composition.h>
 #include <beltrami/maps/fold_free.h>
+#include <beltrami/maps/prescribed_split.h>
 #include <beltrami/mesh/cut.h>
 #include <beltrami/mesh/diagnosis.h>
 #include <beltrami/mesh/error.h>
