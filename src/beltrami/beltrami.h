@@ -31,3 +31,4 @@
 #include <beltrami/operators/surface.h>
 #include <beltrami/teichmuller/certificate.h>
 #include <beltrami/teichmuller/extremal_map.h>
+#include <beltrami/teichmuller/extremal_solver.h>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <beltrami/conformal/chart.h>
+#include <beltrami/differentials/singularities.h>
 
 namespace beltrami {
 
@@ -9,11 +10,12 @@ struct ChartGrid {
     std::vector<int> cell;     ///< #S, −1 for an excluded sample
     std::vector<int> offsets;  ///< #cells+1 positions in samples
     std::vector<int> samples;  ///< ordered by cell, ascending within
+    std::vector<double> size;  ///< #cells edge length of each cell
     int cell_count() const { return static_cast<int>(offsets.size()) - 1; }
 };
 
-/// @param phase     the grid's rotation
-/// @param cell_size edge of a cell, in the canonical domain
-ChartGrid chart_grid(const Chart& chart, double phase, double cell_size);
+/// @param phase the grid's rotation
+/// @param size  edges of the cells, in the canonical domain
+ChartGrid chart_grid(const Chart& chart, double phase, const CellSize& size);
 
 }  // namespace beltrami

@@ -15,6 +15,9 @@ struct ChartPoints {
 
 /// A finite-dimensional subspace of the holomorphic quadratic differentials Q of a problem, with a basis. The solver
 /// knows nothing else about topology and boundary condition.
+///
+/// The basis is given as combinations of simple functions, the generators: Φ = G T. Where many points are concerned G
+/// is kept and coefficients are passed through T, which is cheaper than multiplying the two.
 class DifferentialSpace {
   public:
     virtual ~DifferentialSpace() = default;
@@ -24,14 +27,29 @@ class DifferentialSpace {
     /// True if combinations with complex coefficients belong to the space (boundary values fixed), false if only real
     /// ones do.
     virtual bool complex_coefficients() const = 0;
-    /// Values of every basis function, pulled back to the points: #points × size().
-    virtual Eigen::MatrixXcd evaluate(const ChartPoints& points) const = 0;
+    /// Values of every generator, pulled back to the points: #points × #generators.
+    virtual Eigen::MatrixXcd generators(const ChartPoints& points) const = 0;
+    /// T: #generators × size(); null where the generators are the basis.
+    virtual const Eigen::MatrixXcd* transform() const { return nullptr; }
     /// Values of one combination. @param coefficients size() of them
     virtual Eigen::VectorXcd combination(const ChartPoints& points, const Eigen::VectorXcd& coefficients) const {
-        return evaluate(points) * coefficients;
+        return generators(points) * of_generators(coefficients);
     }
     /// A larger space whose first functions are those of this one; null where the mesh resolves no more.
     virtual std::unique_ptr<DifferentialSpace> refined() const = 0;
+
+    /// Values of every basis function: #points × size().
+    Eigen::MatrixXcd evaluate(const ChartPoints& points) const {
+        return transform() ? Eigen::MatrixXcd(generators(points) * *transform()) : generators(points);
+    }
+    /// T c: the coefficients of the generators.
+    Eigen::VectorXcd of_generators(const Eigen::VectorXcd& coefficients) const {
+        return transform() ? Eigen::VectorXcd(*transform() * coefficients) : coefficients;
+    }
+    /// Tᵀ g: values of the basis from values of the generators, of anything linear in the functions.
+    Eigen::MatrixXcd from_generators(const Eigen::MatrixXcd& of_generators) const {
+        return transform() ? Eigen::MatrixXcd(transform()->transpose() * of_generators) : of_generators;
+    }
 };
 
 }  // namespace beltrami

@@ -28,7 +28,7 @@ std::unique_ptr<DifferentialSpace> PolynomialSpace::starting_space(int largest_d
     return std::make_unique<PolynomialSpace>(std::min(8, largest_degree), largest_degree);
 }
 
-Eigen::MatrixXcd PolynomialSpace::evaluate(const ChartPoints& points) const {
+Eigen::MatrixXcd PolynomialSpace::generators(const ChartPoints& points) const {
     Eigen::MatrixXcd values(points.positions.size(), size());
     parallel_for(0, static_cast<int>(points.positions.size()), [&](int begin, int end) {
         const int count = end - begin;

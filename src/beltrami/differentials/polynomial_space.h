@@ -19,7 +19,7 @@ class PolynomialSpace final : public DifferentialSpace {
 
     int size() const override { return degree_ + 1; }
     bool complex_coefficients() const override { return true; }
-    Eigen::MatrixXcd evaluate(const ChartPoints& points) const override;
+    Eigen::MatrixXcd generators(const ChartPoints& points) const override;
     Eigen::VectorXcd combination(const ChartPoints& points, const Eigen::VectorXcd& coefficients) const override;
     std::unique_ptr<DifferentialSpace> refined() const override;
 

@@ -14,6 +14,9 @@ constexpr int kMostDenseSamples = 45'000;
 /// Edge of a cell in a domain of diameter 2. A power of degree 40 turns by less than half a radian from the middle of
 /// a cell to its corner, where the cubic is off by half a percent; one of degree 10 by 1e-5.
 constexpr double kCellSize = 0.018;
+/// Edge of a cell per distance to the next corner or pin: 1/(z − p) is then interpolated to 1e-3 at worst; and to the
+/// middle of the next hole, where powers up to the tenth or so are wanted.
+constexpr double kCellSlope = 0.25, kHoleSlope = 0.06, kSmallestCell = 1e-4;
 constexpr int kNodes = 4;
 constexpr int kCellsPerChunk = 64;
 
@@ -25,10 +28,16 @@ Complex node_direction(int q) {
 
 }  // namespace
 
-SampledSpace::SampledSpace(const Chart& chart, double phase) : chart_(chart) {
-    if (chart.positions.size() <= kMostDenseSamples) return;
-    grid_ = chart_grid(chart, phase, kCellSize);
-    node_radius_ = 0.5 * kCellSize;
+SampledSpace::SampledSpace(const Chart& chart, const Singularities& singularities, double phase) : chart_(chart) {
+    const auto samples = chart.positions.size();
+    if (samples <= kMostDenseSamples) return;
+    grid_ = chart_grid(chart, phase, CellSize(kCellSize, singularities, kCellSlope, kHoleSlope, kSmallestCell));
+    if (kNodes * grid_.cell_count() > samples / 2) {
+        mode_ = Mode::afresh;
+        grid_ = {{}, {0}, {}, {}};
+        return;
+    }
+    mode_ = Mode::interpolated;
     // Each cell about the mean of its samples, which a cell at the rim may have on one side only.
     centres_ = Eigen::VectorXcd::Zero(grid_.cell_count());
     for (int c = 0; c < grid_.cell_count(); ++c) {
@@ -39,8 +48,9 @@ SampledSpace::SampledSpace(const Chart& chart, double phase) : chart_(chart) {
 
 void SampledSpace::set(const DifferentialSpace& space) {
     space_ = &space;
-    if (!interpolates()) {
-        values_ = space.evaluate({chart_.positions, chart_.derivatives});
+    if (mode_ == Mode::afresh) return;
+    if (mode_ == Mode::dense) {
+        values_ = space.generators({chart_.positions, chart_.derivatives});
         for (Eigen::Index s = 0; s < values_.rows(); ++s)
             if (chart_.excluded[s]) values_.row(s).setZero();
         return;
@@ -50,13 +60,32 @@ void SampledSpace::set(const DifferentialSpace& space) {
     nodes.derivatives = Eigen::VectorXcd::Ones(nodes.positions.size());
     for (Eigen::Index c = 0; c < centres_.size(); ++c)
         for (int q = 0; q < kNodes; ++q)
-            nodes.positions[kNodes * c + q] = centres_[c] + node_radius_ * node_direction(q);
-    values_ = space.evaluate(nodes);
+            nodes.positions[kNodes * c + q] = centres_[c] + 0.5 * grid_.size[c] * node_direction(q);
+    values_ = space.generators(nodes);
+}
+
+ChartPoints SampledSpace::chunk(int first, int last) const {
+    return {chart_.positions.segment(first, last - first), chart_.derivatives.segment(first, last - first)};
 }
 
 Eigen::VectorXcd SampledSpace::combination(const Eigen::VectorXcd& coefficients) const {
-    Eigen::VectorXcd values = values_ * coefficients;
-    if (!interpolates()) return values;
+    const Eigen::VectorXcd of_generators = space_->of_generators(coefficients);
+    if (mode_ == Mode::interpolated) return interpolate(values_ * of_generators);
+    const int samples = static_cast<int>(chart_.positions.size());
+    Eigen::VectorXcd phi(samples);
+    parallel_for(0, samples, [&](int first, int last) {
+        if (mode_ == Mode::dense) {
+            phi.segment(first, last - first) = values_.middleRows(first, last - first) * of_generators;
+        } else {
+            phi.segment(first, last - first) = space_->combination(chunk(first, last), coefficients);
+            for (int s = first; s < last; ++s)
+                if (chart_.excluded[s]) phi[s] = 0;
+        }
+    });
+    return phi;
+}
+
+Eigen::VectorXcd SampledSpace::interpolate(const Eigen::VectorXcd& at_nodes) const {
     Eigen::VectorXcd phi = Eigen::VectorXcd::Zero(chart_.positions.size());
     parallel_for(
         0, grid_.cell_count(),
@@ -66,10 +95,11 @@ Eigen::VectorXcd SampledSpace::combination(const Eigen::VectorXcd& coefficients)
                 std::array<Complex, kNodes> taylor{};
                 for (int p = 0; p < kNodes; ++p)
                     for (int q = 0; q < kNodes; ++q)
-                        taylor[p] += 0.25 * std::conj(node_direction(p * q)) * values[kNodes * c + q];
+                        taylor[p] += 0.25 * std::conj(node_direction(p * q)) * at_nodes[kNodes * c + q];
+                const double scale = 2 / grid_.size[c];
                 for (int i = grid_.offsets[c]; i < grid_.offsets[c + 1]; ++i) {
                     const int s = grid_.samples[i];
-                    const Complex w = (chart_.positions[s] - centres_[c]) / node_radius_;
+                    const Complex w = scale * (chart_.positions[s] - centres_[c]);
                     const Complex value = taylor[0] + w * (taylor[1] + w * (taylor[2] + w * taylor[3]));
                     phi[s] = value * chart_.derivatives[s] * chart_.derivatives[s];
                 }
@@ -80,17 +110,35 @@ Eigen::VectorXcd SampledSpace::combination(const Eigen::VectorXcd& coefficients)
 }
 
 Eigen::MatrixXcd SampledSpace::pair(const Eigen::MatrixXcd& weights) const {
-    if (!interpolates()) return values_.transpose() * weights;
+    if (mode_ == Mode::interpolated) return space_->from_generators(values_.transpose() * gather(weights));
+    const int samples = static_cast<int>(chart_.positions.size());
+    const int generators =
+        static_cast<int>(space_->transform() ? space_->transform()->rows() : Eigen::Index{space_->size()});
+    const Eigen::MatrixXcd zero = Eigen::MatrixXcd::Zero(generators, weights.cols());
+    return space_->from_generators(
+        parallel_sum<Eigen::MatrixXcd>(samples, zero, [&](int first, int last) -> Eigen::MatrixXcd {
+            const int count = last - first;
+            Eigen::MatrixXcd part = weights.middleRows(first, count);
+            if (mode_ == Mode::dense) return values_.middleRows(first, count).transpose() * part;
+            for (int s = first; s < last; ++s)
+                if (chart_.excluded[s]) part.row(s - first).setZero();
+            return space_->generators(chunk(first, last)).transpose() * part;
+        }));
+}
+
+/// What weights at the samples are as weights at the nodes: the adjoint of interpolate().
+Eigen::MatrixXcd SampledSpace::gather(const Eigen::MatrixXcd& weights) const {
     Eigen::MatrixXcd at_nodes(values_.rows(), weights.cols());
     parallel_for(
         0, grid_.cell_count(),
         [&](int first, int last) {
-            for (int c = first; c < last; ++c)
+            for (int c = first; c < last; ++c) {
+                const double scale = 2 / grid_.size[c];
                 for (Eigen::Index column = 0; column < weights.cols(); ++column) {
                     std::array<Complex, kNodes> moment{};
                     for (int i = grid_.offsets[c]; i < grid_.offsets[c + 1]; ++i) {
                         const int s = grid_.samples[i];
-                        const Complex w = (chart_.positions[s] - centres_[c]) / node_radius_;
+                        const Complex w = scale * (chart_.positions[s] - centres_[c]);
                         Complex term = weights(s, column) * chart_.derivatives[s] * chart_.derivatives[s];
                         for (int p = 0; p < kNodes; ++p, term *= w) moment[p] += term;
                     }
@@ -100,9 +148,10 @@ Eigen::MatrixXcd SampledSpace::pair(const Eigen::MatrixXcd& weights) const {
                         at_nodes(kNodes * c + q, column) = weight;
                     }
                 }
+            }
         },
         kCellsPerChunk);
-    return values_.transpose() * at_nodes;
+    return at_nodes;
 }
 
 }  // namespace beltrami

@@ -11,12 +11,12 @@ namespace beltrami {
 /// On small meshes the values of all functions at all samples are kept. On large ones functions are evaluated at four
 /// nodes per cell of a grid over the canonical domain only: inside a cell a holomorphic function is its cubic
 /// interpolant through four points of a circle. That costs a few operations a sample instead of a few per function and
-/// sample.
+/// sample. Where singularities would ask for nearly as many cells as samples, functions are evaluated afresh each time.
 class SampledSpace {
   public:
     /// @param chart kept by reference
     /// @param phase rotation of the grid, tied to the data so that turning the source changes nothing
-    SampledSpace(const Chart& chart, double phase);
+    SampledSpace(const Chart& chart, const Singularities& singularities, double phase);
 
     /// Makes another space the current one; kept by reference until the next call.
     void set(const DifferentialSpace& space);
@@ -29,14 +29,18 @@ class SampledSpace {
     Eigen::MatrixXcd pair(const Eigen::MatrixXcd& weights) const;
 
   private:
-    bool interpolates() const { return grid_.cell_count() > 0; }
+    enum class Mode { dense, interpolated, afresh };
+
+    Eigen::VectorXcd interpolate(const Eigen::VectorXcd& at_nodes) const;
+    Eigen::MatrixXcd gather(const Eigen::MatrixXcd& weights) const;
+    ChartPoints chunk(int first, int last) const;
 
     const Chart& chart_;
     const DifferentialSpace* space_ = nullptr;
-    ChartGrid grid_{{}, {0}, {}};  ///< no cells: every value is kept
-    Eigen::VectorXcd centres_;     ///< #cells
-    double node_radius_ = 0;
-    Eigen::MatrixXcd values_;  ///< #S × m; or 4 #cells × m in the canonical domain
+    Mode mode_ = Mode::dense;
+    ChartGrid grid_{{}, {0}, {}, {}};
+    Eigen::VectorXcd centres_;  ///< #cells
+    Eigen::MatrixXcd values_;   ///< of the generators: #S × g; or 4 #cells × g in the canonical domain
 };
 
 }  // namespace beltrami

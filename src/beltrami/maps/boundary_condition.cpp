@@ -13,8 +13,7 @@ void validate(const BoundaryCondition& boundary, const Surface& source) {
                                              " vertices but " + std::to_string(boundary.images.size()) + " images");
     const int n = source.mesh.vertex_count();
     std::vector<char> seen(n, 0);
-    for (std::size_t i = 0; i < boundary.vertices.size(); ++i) {
-        const int v = boundary.vertices[i];
+    const auto see = [&](int v) {
         if (v < 0 || v >= n)
             throw Error(Cause::bad_boundary,
                         "vertex " + std::to_string(v) + " is pinned, but the mesh has the vertices 0 to " +
@@ -24,9 +23,22 @@ void validate(const BoundaryCondition& boundary, const Surface& source) {
             throw Error(Cause::bad_boundary, "vertex " + std::to_string(v) + " is pinned twice",
                         "give one image per vertex", {v});
         seen[v] = 1;
+    };
+    for (std::size_t i = 0; i < boundary.vertices.size(); ++i) {
+        const int v = boundary.vertices[i];
+        see(v);
         if (!std::isfinite(boundary.images[i].real()) || !std::isfinite(boundary.images[i].imag()))
             throw Error(Cause::bad_boundary, "the image of vertex " + std::to_string(v) + " is not finite",
                         "give two numbers", {v});
+    }
+    for (const auto& [v, point, direction] : boundary.lines) {
+        see(v);
+        if (source.topology.on_boundary[v])
+            throw Error(Cause::bad_boundary, "vertex " + std::to_string(v) + " lies on the boundary and may not slide",
+                        "give its image point", {v});
+        if (!std::isfinite(std::abs(point)) || !std::isfinite(std::abs(direction)) || direction == 0.0)
+            throw Error(Cause::bad_boundary, "the line of vertex " + std::to_string(v) + " is not a line",
+                        "give a finite point and a direction", {v});
     }
 }
 
@@ -64,13 +76,22 @@ std::vector<Freedom> freedoms(const BoundaryCondition& boundary, const Surface& 
     std::vector<Freedom> result(source.mesh.vertex_count(), Freedom::fixed);
     for (const int v : source.mesh.faces.vertices()) result[v] = Freedom::free;
     for (const int v : boundary.vertices) result[v] = Freedom::fixed;
+    for (const auto& line : boundary.lines) result[line.vertex] = Freedom::sliding;
     return result;
 }
 
 Eigen::VectorXcd prescribed_values(const BoundaryCondition& boundary, const Surface& source) {
     Eigen::VectorXcd values = Eigen::VectorXcd::Zero(source.mesh.vertex_count());
     for (std::size_t i = 0; i < boundary.vertices.size(); ++i) values[boundary.vertices[i]] = boundary.images[i];
+    for (const auto& line : boundary.lines) values[line.vertex] = line.point;
     return values;
+}
+
+Eigen::VectorXcd line_directions(const BoundaryCondition& boundary, const Surface& source) {
+    if (boundary.lines.empty()) return {};
+    Eigen::VectorXcd directions = Eigen::VectorXcd::Zero(source.mesh.vertex_count());
+    for (const auto& line : boundary.lines) directions[line.vertex] = line.direction / std::abs(line.direction);
+    return directions;
 }
 
 }  // namespace beltrami

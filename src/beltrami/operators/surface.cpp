@@ -56,4 +56,14 @@ void require_disk(const Surface& surface) {
                 "cut or fill it until one component with one boundary loop is left");
 }
 
+void require_genus_zero(const Surface& surface) {
+    const Topology& topology = surface.topology;
+    if (topology.components == 1 && !topology.boundary_loops.empty() && topology.genus == 0) return;
+    throw Error(Cause::bad_mesh,
+                "the surface is not part of a plane: components " + std::to_string(topology.components) +
+                    ", boundary loops " + std::to_string(topology.boundary_loops.size()) + ", genus " +
+                    std::to_string(topology.genus),
+                "cut it until one component of genus 0 with a boundary is left");
+}
+
 }  // namespace beltrami

@@ -33,4 +33,7 @@ struct Surface {
 /// @throw Error bad_mesh unless the surface is a disk: one component, one boundary loop, genus 0
 void require_disk(const Surface& surface);
 
+/// @throw Error bad_mesh unless the surface has one component, genus 0 and a boundary
+void require_genus_zero(const Surface& surface);
+
 }  // namespace beltrami

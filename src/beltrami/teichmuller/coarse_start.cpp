@@ -7,6 +7,7 @@
 #include <beltrami/conformal/round_disk.h>
 #include <beltrami/differentials/polynomial_space.h>
 #include <beltrami/generate/round_domains.h>
+#include <beltrami/teichmuller/problem.h>
 
 namespace beltrami {
 
@@ -72,19 +73,17 @@ HamiltonState coarse_start(const Surface& source, const BoundaryCondition& bound
         if (turn < 0) turn += kTwoPi;
         coarse.pin(v, values.at(turn));
     }
-    const Chart model_chart = round_disk_chart(model);
-    ExtremalOptions coarse_options = options;
+    ExtremalProblem problem(model, coarse, 1);
+    problem.set_chart(round_disk_chart(model, problem.solver()), {}, options.cluster_count);
+    HamiltonIteration::Options coarse_options = iteration_options(options);
     coarse_options.progress = {};
-    BeltramiSolver solver(model, freedoms(coarse, model), 1);
-    const Eigen::VectorXcd prescribed = prescribed_values(coarse, model);
-    solver.factorize(Eigen::VectorXcd::Zero(model.operators.sample_count()));
-    CoefficientStep coefficient_step(model, model_chart, phase, options.cluster_count);
-    HamiltonIteration iteration(model, solver, prescribed, coefficient_step, coarse_options);
+    coarse_options.grow_last = false;
+    HamiltonIteration iteration(model, problem.map_step(), problem.coefficient_step(), coarse_options);
     HamiltonState state;
     // The degrees that the fine mesh resolves: on the coarse one the highest are rough, which is good enough for a
     // start.
     const int largest_degree = PolynomialSpace::largest_degree(source.operators.sample_count());
-    iteration.run(state, solver.solve(prescribed), PolynomialSpace::starting_space(largest_degree), false);
+    iteration.run(state, problem.harmonic(), problem.starting_space(largest_degree));
     return state;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <beltrami/teichmuller/extremal_map.h>
 #include <beltrami/teichmuller/hamilton.h>
 
 namespace beltrami {

@@ -19,11 +19,12 @@ Complex clipped(Complex mu) {
 
 }  // namespace
 
-CoefficientStep::CoefficientStep(const Surface& source, const Chart& chart, double phase, int cluster_count)
+CoefficientStep::CoefficientStep(const Surface& source, const Chart& chart, const Singularities& singularities,
+                                 double phase, int cluster_count)
     : source_(source),
       chart_(chart),
-      sampled_(chart, phase),
-      clusters_(cluster_samples(source.operators, chart, phase, cluster_count)) {
+      sampled_(chart, singularities, phase),
+      clusters_(cluster_samples(source.operators, chart, singularities, phase, cluster_count)) {
     double area = 0;
     for (const double a : clusters_.squared) area += a;
     problem_.rounding = kRounding * std::sqrt(area / static_cast<double>(clusters_.points.positions.size()));

@@ -18,7 +18,11 @@ class CoefficientStep {
 
     /// @param source, chart kept by reference
     /// @param phase see SampledSpace
-    CoefficientStep(const Surface& source, const Chart& chart, double phase, int cluster_count);
+    CoefficientStep(const Surface& source, const Chart& chart, const Singularities& singularities, double phase,
+                    int cluster_count);
+
+    /// Points of the canonical domain that resolve what the c-step sees, with their areas.
+    const SampleClusters& clusters() const { return clusters_; }
 
     /// Makes another space the current one; kept by reference until the next call.
     void set_space(const DifferentialSpace& space);

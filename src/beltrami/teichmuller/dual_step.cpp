@@ -16,6 +16,10 @@ namespace {
 constexpr double kFloor = 1e-12;
 /// The slope at which Newton stops, as part of the norm.
 constexpr double kGradientTolerance = 1e-12;
+/// Edge of a cluster per distance to the next corner or pin, and to the middle of the next hole.
+constexpr double kClusterSlope = 0.6, kHoleClusterSlope = 0.25;
+/// No cluster is smaller, in a domain of diameter 2.
+constexpr double kSmallestCluster = 1e-5;
 /// (δ/s)² below which the second kind of Hessian row is left out.
 constexpr double kNearZero = 1e-3;
 
@@ -162,7 +166,8 @@ DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& star
     return solution;
 }
 
-SampleClusters cluster_samples(const Operators& operators, const Chart& chart, double phase, int target_count) {
+SampleClusters cluster_samples(const Operators& operators, const Chart& chart, const Singularities& singularities,
+                               double phase, int target_count) {
     const int samples = operators.sample_count();
     SampleClusters result;
     result.squared.assign(samples, 0.0);
@@ -180,7 +185,9 @@ SampleClusters cluster_samples(const Operators& operators, const Chart& chart, d
         for (int s = 0; s < samples; ++s)
             if (!chart.excluded[s]) result.cluster[s] = clusters++;
     } else {
-        ChartGrid grid = chart_grid(chart, phase, std::sqrt(total / target_count));
+        ChartGrid grid = chart_grid(chart, phase,
+                                    CellSize(std::sqrt(total / target_count), singularities, kClusterSlope,
+                                             kHoleClusterSlope, kSmallestCluster));
         clusters = grid.cell_count();
         result.cluster = std::move(grid.cell);
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <beltrami/differentials/differential_space.h>
+#include <beltrami/differentials/singularities.h>
 
 namespace beltrami {
 
@@ -54,7 +55,9 @@ struct SampleClusters {
 };
 
 /// @param phase rotation of the grid, to be tied to the data so that turning the source changes nothing
-/// @param target_count about how many clusters; at most as many as samples
-SampleClusters cluster_samples(const Operators& operators, const Chart& chart, double phase, int target_count);
+/// @param target_count about how many clusters away from singularities, to which more are added; at most as many as
+///                     samples
+SampleClusters cluster_samples(const Operators& operators, const Chart& chart, const Singularities& singularities,
+                               double phase, int target_count);
 
 }  // namespace beltrami

@@ -1,12 +1,16 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <beltrami/maps/boundary_condition.h>
+#include <beltrami/maps/homotopy.h>
+#include <beltrami/maps/prescribed_split.h>
 #include <beltrami/operators/distortion.h>
 #include <beltrami/teichmuller/certificate.h>
+#include <beltrami/teichmuller/hamilton.h>
 
 namespace beltrami {
 
@@ -16,6 +20,16 @@ struct ExtremalOptions {
     double growth = 1e-5;      ///< the space of differentials grows while that raises k by more than this part
     int anderson_window = 5;   ///< 0: plain iteration
     int cluster_count = 1500;  ///< quadrature points of the c-step on large meshes, at least 100
+    int outer_loop = 0;        ///< the boundary loop whose image encloses the others
+    /// Turns of every boundary loop against the outer one (homotopy.h), one number per loop, that of the outer loop not
+    /// used. Empty: those of the harmonic map, or of the start.
+    std::vector<int> turns;
+    /// A map to start from (#V) instead of the harmonic one, for instance one of another homotopy class; prescribed
+    /// vertices are put in their places.
+    std::optional<Eigen::VectorXcd> start;
+    /// Split edges and faces that the prescribed vertices nail down (prescribed_split.h): no solver can repair them.
+    bool split_prescribed = true;
+    bool remove_folds = true;  ///< finish with a fold-free solve where faces are flipped
     /// Called once per iteration with its number and k; returning false cancels (Error cancelled).
     std::function<bool(int iteration, double k)> progress;
 
@@ -23,17 +37,16 @@ struct ExtremalOptions {
     void validate() const;
 };
 
+/// The part of the options that the iteration takes.
+HamiltonIteration::Options iteration_options(const ExtremalOptions& options);
+
 enum class Termination { converged, iteration_limit };
 const char* to_string(Termination);
 
-struct Iteration {
-    double k;       ///< of the c-step
-    double change;  ///< of the direction of φ since the last iteration
-    int functions;  ///< dimension of the space of differentials
-};
-
 /// The map of least dilatation among all with the same boundary values (of the same homotopy class), and how good it
 /// is.
+///
+/// Where edges had to be split, #V, #F and #S below are those of the split mesh.
 struct ExtremalMap {
     Eigen::VectorXcd map;  ///< #V images
     Eigen::VectorXcd phi;  ///< #S quadratic differential in the samples' frames; 0 where the chart excludes the sample
@@ -45,10 +58,13 @@ struct ExtremalMap {
     double K_lower = 1;  ///< largest Reich-Strebel bound; 1 if there is none
     double K_max = 0;    ///< largest K of a face; infinite if faces are flipped or collapsed
     std::vector<Bound> bounds;
-    double boundary_residual = 0;  ///< largest distance of a prescribed vertex from its image
+    std::optional<SplitProblem> split;  ///< the mesh that was mapped, if it is not the source itself
+    HomotopyClass homotopy;             ///< of map
+    double boundary_residual = 0;       ///< largest distance of a prescribed vertex from its image
     Termination termination = Termination::converged;
-    int iterations = 0;      ///< linear solves after the harmonic one
-    int factorizations = 0;  ///< of #V×#V systems and larger, chart included
+    int iterations = 0;          ///< linear solves after the harmonic one
+    int factorizations = 0;      ///< of #V×#V systems and larger, chart included
+    bool folds_removed = false;  ///< the iteration left flipped faces, which a fold-free solve with its φ and k removed
     std::vector<Iteration> history;
     std::vector<std::string> warnings;
 
@@ -59,10 +75,12 @@ struct ExtremalMap {
 /// The extremal quasiconformal (Teichmüller) map with prescribed boundary values, by Hamilton's iteration with Anderson
 /// acceleration: the c-step (dual_step.h) finds the quadratic differential φ and k of the present map, the f-step
 /// (beltrami_solver.h) the map with coefficient k conj(φ)/|φ|. The metric of the source stays in ∂ and ∂̄; a conformal
-/// chart of the round disk only serves to write φ down. Weber, Myles & Zorin 2012 solve the same problem by alternating
-/// least squares; here φ is holomorphic by construction and k is found from pairings, which are blind to the noise at
-/// the zeros of φ.
-/// @pre a disk: one component, one boundary loop, genus 0; every boundary vertex is prescribed
+/// chart of a canonical domain only serves to write φ down. Weber, Myles & Zorin 2012 solve the same problem by
+/// alternating least squares; here φ is holomorphic by construction and k is found from pairings, which are blind to
+/// the noise at the zeros of φ.
+///
+/// Without a start and turns, the homotopy class is that of the harmonic map.
+/// @pre one component of genus 0, every boundary vertex is prescribed; vertices inside may be
 /// @throw Error bad_mesh, bad_boundary, not_solved, cancelled, bad_option
 ExtremalMap extremal_map(const Surface& source, const BoundaryCondition& boundary, const ExtremalOptions& options = {});
 ExtremalMap extremal_map(const Mesh& source, const BoundaryCondition& boundary, const ExtremalOptions& options = {});

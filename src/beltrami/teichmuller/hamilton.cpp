@@ -5,6 +5,7 @@
 
 #include <beltrami/linear/anderson.h>
 #include <beltrami/mesh/error.h>
+#include <beltrami/operators/distortion.h>
 
 namespace beltrami {
 
@@ -15,16 +16,6 @@ constexpr double kLargest = 0.9999;
 /// The f-step is solved to this part of the change that the c-step will see.
 constexpr double kSolveBelowChange = 1e-3;
 
-/// ν = k conj(φ)/|φ|, 0 where φ says nothing.
-Eigen::VectorXcd teichmueller_coefficient(double k, const Eigen::VectorXcd& phi) {
-    Eigen::VectorXcd nu(phi.size());
-    for (Eigen::Index s = 0; s < phi.size(); ++s) {
-        const double size = std::sqrt(std::norm(phi[s]));
-        nu[s] = size > 0 ? k * std::conj(phi[s]) / size : 0.0;
-    }
-    return nu;
-}
-
 /// (direction of φ, k) as one real vector for the accelerated fixed-point iteration.
 Eigen::VectorXd pack(const Eigen::VectorXcd& direction, double k) {
     Eigen::VectorXd x(2 * direction.size() + 1);
@@ -34,13 +25,18 @@ Eigen::VectorXd pack(const Eigen::VectorXcd& direction, double k) {
 
 }  // namespace
 
-HamiltonIteration::HamiltonIteration(const Surface& source, BeltramiSolver& solver, const Eigen::VectorXcd& prescribed,
-                                     CoefficientStep& coefficient_step, const ExtremalOptions& options)
-    : source_(source),
-      solver_(solver),
-      prescribed_(prescribed),
-      coefficient_step_(coefficient_step),
-      options_(options) {}
+Eigen::VectorXcd teichmueller_coefficient(double k, const Eigen::VectorXcd& phi) {
+    Eigen::VectorXcd nu(phi.size());
+    for (Eigen::Index s = 0; s < phi.size(); ++s) {
+        const double size = std::sqrt(std::norm(phi[s]));
+        nu[s] = size > 0 ? k * std::conj(phi[s]) / size : 0.0;
+    }
+    return nu;
+}
+
+HamiltonIteration::HamiltonIteration(const Surface& source, MapStep& map_step, CoefficientStep& coefficient_step,
+                                     Options options)
+    : source_(source), map_step_(map_step), coefficient_step_(coefficient_step), options_(std::move(options)) {}
 
 /// Takes larger spaces while they raise k noticeably; returns whether any did.
 bool HamiltonIteration::grow(HamiltonState& state, const Eigen::VectorXcd& mu) {
@@ -60,10 +56,14 @@ bool HamiltonIteration::grow(HamiltonState& state, const Eigen::VectorXcd& mu) {
 }
 
 void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
-                            std::unique_ptr<DifferentialSpace> smallest, bool may_grow_in_the_end) {
+                            std::unique_ptr<DifferentialSpace> smallest) {
     map_ = start;
+    iterations_ = 0;
+    converged_ = false;
+    history_.clear();
     const bool from_elsewhere = state.space != nullptr;
-    bool near_last_factor = false;
+    bool near_last_factor = options_.near_last_factor;
+    BeltramiSolver& solver = map_step_.solver;
     if (!state.space) {
         state.space = std::move(smallest);
         coefficient_step_.set_space(*state.space);
@@ -83,10 +83,10 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
         const Eigen::VectorXcd phi = coefficient_step_.values(state.direction),
                                nu = teichmueller_coefficient(state.k, phi);
         if (near_last_factor) {
-            map_ = solver_.solve_near(nu, prescribed_, map_, kSolveBelowChange * std::min(change, 0.1));
+            map_ = solver.solve_near(nu, map_step_.prescribed, map_, kSolveBelowChange * std::min(change, 0.1));
         } else {
-            solver_.factorize(nu);
-            map_ = solver_.solve(prescribed_);
+            solver.factorize(nu, map_step_.directions);
+            map_ = solver.solve(map_step_.prescribed);
             near_last_factor = true;
         }
         ++iterations_;
@@ -103,7 +103,7 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
                              (change < options_.tolerance || step_.k < options_.tolerance);
         // Growing is decided where the map is exact to rounding, which must not turn the decision: at the start
         // (above), at the first map that comes from another mesh's φ, and in the end.
-        if ((from_elsewhere && iterations_ == 1) || (settled && may_grow_in_the_end)) {
+        if ((from_elsewhere && options_.grow_first && iterations_ == 1) || (settled && options_.grow_last)) {
             if (grow(state, mu)) {
                 anderson.reset();
                 change = 1;

@@ -1,10 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <vector>
 
 #include <beltrami/maps/beltrami_solver.h>
 #include <beltrami/teichmuller/coefficient_step.h>
-#include <beltrami/teichmuller/extremal_map.h>
 
 namespace beltrami {
 
@@ -15,20 +16,43 @@ struct HamiltonState {
     double k = 0;
 };
 
+struct Iteration {
+    double k;       ///< of the c-step
+    double change;  ///< of the direction of φ since the last iteration
+    int functions;  ///< dimension of the space of differentials
+};
+
+/// The f-step of a problem: a solver with what it prescribes.
+struct MapStep {
+    BeltramiSolver& solver;
+    Eigen::VectorXcd prescribed;  ///< #V values of the fixed vertices, points on their lines for sliding ones
+    Eigen::VectorXcd directions;  ///< #V of sliding vertices; empty if none slides
+};
+
 /// Hamilton's iteration, the one loop for every topology: the c-step finds φ and k of a map, the f-step the map with
 /// the coefficient k conj(φ)/|φ|, until both settle. Anderson acceleration on (direction of φ, k).
 class HamiltonIteration {
   public:
-    /// All are kept by reference. @param solver factorised for a coefficient near where the iteration starts, or for
-    /// any
-    HamiltonIteration(const Surface& source, BeltramiSolver& solver, const Eigen::VectorXcd& prescribed,
-                      CoefficientStep& coefficient_step, const ExtremalOptions& options);
+    struct Options {
+        double tolerance = 1e-8;
+        int max_iterations = 60;
+        double growth = 1e-5;
+        int anderson_window = 5;
+        /// When a larger space is tried, besides at a start from nothing: with the first map that comes from another
+        /// problem's state, and once all has settled.
+        bool grow_first = true, grow_last = true;
+        /// The solver's last factorisation is near: conjugate gradients with it may do from the first f-step on.
+        bool near_last_factor = false;
+        std::function<bool(int iteration, double k)> progress;
+    };
+
+    /// All are kept by reference.
+    HamiltonIteration(const Surface& source, MapStep& map_step, CoefficientStep& coefficient_step, Options options);
 
     /// Runs from @p state, or where that knows nothing from the c-step of @p start in @p smallest, a first space.
     /// state.space is the last space used; last_step() belongs to it.
-    /// @param may_grow_in_the_end whether a larger space is tried once all has settled
-    void run(HamiltonState& state, const Eigen::VectorXcd& start, std::unique_ptr<DifferentialSpace> smallest,
-             bool may_grow_in_the_end);
+    /// @throw Error cancelled, not_solved
+    void run(HamiltonState& state, const Eigen::VectorXcd& start, std::unique_ptr<DifferentialSpace> smallest);
 
     const Eigen::VectorXcd& map() const { return map_; }
     /// The c-step of map().
@@ -41,15 +65,17 @@ class HamiltonIteration {
     bool grow(HamiltonState& state, const Eigen::VectorXcd& mu);
 
     const Surface& source_;
-    BeltramiSolver& solver_;
-    const Eigen::VectorXcd& prescribed_;
+    MapStep& map_step_;
     CoefficientStep& coefficient_step_;
-    const ExtremalOptions& options_;
+    Options options_;
     Eigen::VectorXcd map_;
     CoefficientStep::Result step_;
     std::vector<Iteration> history_;
     int iterations_ = 0;
     bool converged_ = false;
 };
+
+/// ν = k conj(φ)/|φ|, 0 where φ says nothing.
+Eigen::VectorXcd teichmueller_coefficient(double k, const Eigen::VectorXcd& phi);
 
 }  // namespace beltrami

@@ -75,7 +75,7 @@ TEST(DualStep, CorrectionMakesACoarseQuadratureExact) {
     const DualProblem fine = problem_of(setting.surface, setting.chart, setting.space, mu);
     const Eigen::VectorXcd exact = solve_dual(fine, {}).coefficients;
 
-    const SampleClusters clusters = cluster_samples(setting.surface.operators, setting.chart, 0.3, 150);
+    const SampleClusters clusters = cluster_samples(setting.surface.operators, setting.chart, {}, 0.3, 150);
     DualProblem coarse = fine;
     coarse.basis = setting.space.evaluate(clusters.points);
     coarse.weights = Eigen::VectorXd::Zero(coarse.basis.rows());
@@ -112,13 +112,13 @@ TEST(DilatationOfPairing, InvertsItsFormula) {
 
 TEST(Clusters, ShareTheWholeAreaAndTurnWithTheirPhase) {
     const Setting setting;
-    const SampleClusters clusters = cluster_samples(setting.surface.operators, setting.chart, 0.0, 200);
+    const SampleClusters clusters = cluster_samples(setting.surface.operators, setting.chart, {}, 0.0, 200);
     double total = 0;
     for (const double a : clusters.squared) total += a;
     EXPECT_NEAR(total, setting.surface.operators.area(), 1e-12);
     Chart turned = setting.chart;
     turned.positions *= std::polar(1.0, 1.1);
-    const SampleClusters again = cluster_samples(setting.surface.operators, turned, 1.1, 200);
+    const SampleClusters again = cluster_samples(setting.surface.operators, turned, {}, 1.1, 200);
     EXPECT_EQ(clusters.cluster, again.cluster);
 }
 

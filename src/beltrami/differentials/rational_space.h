@@ -1,0 +1,59 @@
+#pragma once
+
+#include <vector>
+
+#include <beltrami/differentials/differential_space.h>
+#include <beltrami/differentials/singularities.h>
+
+namespace beltrami {
+
+/// Rational quadratic differentials on a domain inside the unit disk: polynomials, powers of r/(z − c) for every hole,
+/// poles r/(z − p) and (r/(z − p))² clustered towards every corner from outside (r the distance from p to the corner,
+/// falling like exp(−4(√N − √(N−j))); Gopal & Trefethen 2019 show root-exponential convergence for such poles), and a
+/// simple pole at every pinned point. Orthonormal in L² of a quadrature; functions that depend on earlier ones are left
+/// out.
+class RationalSpace final : public DifferentialSpace {
+  public:
+    /// Points of the canonical domain that resolve the singularities, with their weights (areas).
+    struct Quadrature {
+        Eigen::VectorXcd points;
+        Eigen::VectorXd weights;
+    };
+
+    /// A space to start from, which can grow up to a degree of the polynomials, and each hole's largest power.
+    static std::unique_ptr<DifferentialSpace> starting_space(const Singularities& singularities, Quadrature quadrature,
+                                                             int largest_degree);
+
+    int size() const override { return static_cast<int>(transform_.cols()); }
+    bool complex_coefficients() const override { return true; }
+    Eigen::MatrixXcd generators(const ChartPoints& points) const override;
+    const Eigen::MatrixXcd* transform() const override { return &transform_; }
+    Eigen::VectorXcd combination(const ChartPoints& points, const Eigen::VectorXcd& coefficients) const override;
+    std::unique_ptr<DifferentialSpace> refined() const override;
+
+  private:
+    /// scale^power/(z − centre)^power; power < 0: the polynomial ((z − centre)/scale)^(−power).
+    struct Generator {
+        Complex centre;
+        double scale;
+        int power;
+    };
+    struct Family {
+        Singularities singularities;
+        Quadrature quadrature;
+        int largest_degree, largest_power;
+    };
+
+    explicit RationalSpace(std::shared_ptr<const Family> family) : family_(std::move(family)) {}
+    /// Appends functions and orthonormalises them against those that are there.
+    void add(std::vector<Generator> more);
+    /// Polynomials up to a degree, powers at the holes.
+    void raise(int degree, int power);
+
+    std::shared_ptr<const Family> family_;
+    int degree_ = -1, power_ = 0;
+    std::vector<Generator> generators_;
+    Eigen::MatrixXcd transform_;  ///< columns of earlier functions stay as they are
+};
+
+}  // namespace beltrami

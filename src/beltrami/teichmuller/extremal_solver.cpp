@@ -1,0 +1,250 @@
+#include <beltrami/teichmuller/extremal_solver.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <beltrami/conformal/domain_chart.h>
+#include <beltrami/differentials/polynomial_space.h>
+#include <beltrami/maps/boundary_feasibility.h>
+#include <beltrami/maps/fold_free.h>
+#include <beltrami/maps/twist.h>
+#include <beltrami/mesh/error.h>
+#include <beltrami/teichmuller/coarse_start.h>
+#include <beltrami/teichmuller/problem.h>
+
+namespace beltrami {
+
+namespace {
+
+/// How many solves the system is ordered for.
+constexpr int kExpectedFactorizations = 8;
+
+/// √ of the mean of |μ − k conj(φ)/|φ||², |μ| held at 1: how far a map is from the coefficient that the theory
+/// promises.
+double deviation(const Operators& operators, const Eigen::VectorXcd& mu, const Eigen::VectorXcd& phi, double k) {
+    double sum = 0, area = 0;
+    for (int s = 0; s < operators.sample_count(); ++s) {
+        const double size = std::abs(phi[s]);
+        if (!(size > 0) || !std::isfinite(std::abs(mu[s]))) continue;
+        const Complex m = std::abs(mu[s]) > 1 ? mu[s] / std::abs(mu[s]) : mu[s];
+        sum += operators.weights[s] * std::norm(m - k * std::conj(phi[s]) / size);
+        area += operators.weights[s];
+    }
+    return area > 0 ? std::sqrt(sum / area) : 0.0;
+}
+
+/// Where the deviation exceeds this part of k, k is no more than a rough estimate.
+constexpr double kRough = 0.6;
+
+/// Prescribed vertices of @p map put in their places.
+void prescribe(Eigen::VectorXcd& map, const BoundaryCondition& boundary) {
+    for (std::size_t i = 0; i < boundary.vertices.size(); ++i) map[boundary.vertices[i]] = boundary.images[i];
+}
+
+
+/// The problem on a mesh that no prescription nails down.
+struct Prepared {
+    std::optional<SplitProblem> split;
+    std::optional<Surface> surface;  ///< of split
+};
+
+Prepared prepare(const Surface& source, const BoundaryCondition& boundary, const ExtremalOptions& options) {
+    options.validate();
+    require_genus_zero(source);
+    validate(boundary, source);
+    require_whole_boundary(boundary, source);
+    require_feasible(source, boundary, options.outer_loop);
+    Prepared result;
+    if (!options.split_prescribed) return result;
+    SplitProblem split = split_prescribed(source, boundary);
+    if (split.split_edges == 0) return result;
+    result.surface = split.metric ? Surface(split.mesh, *split.metric) : Surface(split.mesh);
+    result.split = std::move(split);
+    return result;
+}
+
+/// A start given on the old mesh, on the split one.
+Eigen::VectorXcd on_split_mesh(const Eigen::VectorXcd& start, const std::optional<SplitProblem>& split) {
+    if (!split) return start;
+    Eigen::VectorXcd result(split->mesh.vertex_count());
+    result.head(start.size()) = start;
+    for (std::size_t i = 0; i < split->parents.size(); ++i) {
+        Complex sum = 0;
+        int count = 0;
+        for (const int parent : split->parents[i])
+            if (parent >= 0) sum += start[parent], ++count;
+        result[start.size() + static_cast<Eigen::Index>(i)] = sum / static_cast<double>(count);
+    }
+    return result;
+}
+
+}  // namespace
+
+struct ExtremalSolver::Implementation {
+    ExtremalOptions options;
+    BoundaryCondition boundary;
+    Prepared prepared;
+    const Surface& source;
+    ExtremalProblem problem;
+    HamiltonState state;
+    Eigen::VectorXcd map;
+    CoefficientStep::Result step;
+    std::vector<std::string> warnings;
+    std::vector<Iteration> history;
+    std::vector<LoopPath> paths;  // along which turns are counted
+    bool converged = false;
+    int other_factorizations = 0;  // of the chart and the finish
+
+    Implementation(const Surface& given, const BoundaryCondition& b, const ExtremalOptions& o)
+        : options(o),
+          boundary(b),
+          prepared(prepare(given, boundary, options)),
+          source(prepared.surface ? *prepared.surface : given),
+          problem(source, boundary, kExpectedFactorizations) {
+        if (prepared.split)
+            warnings.push_back(std::to_string(prepared.split->split_edges) +
+                               " edges between prescribed vertices were split; added vertices follow the source's");
+        const bool inside = !boundary.lines.empty() || boundary.vertices.size() > boundary_vertex_count();
+        Chart chart = domain_chart(source, options.outer_loop, inside ? nullptr : &problem.solver());
+        other_factorizations += chart.factorizations;
+        warnings.insert(warnings.end(), chart.warnings.begin(), chart.warnings.end());
+        Singularities singularities = singularities_of(source, chart, boundary);
+        const bool smooth = singularities.empty();
+        problem.set_chart(std::move(chart), std::move(singularities), options.cluster_count);
+        if (source.topology.boundary_loops.size() > 1)
+            paths = loop_paths(source, problem.chart().vertices, options.outer_loop);
+        choose_start(smooth);
+    }
+
+    std::size_t boundary_vertex_count() const {
+        std::size_t count = 0;
+        for (const auto& loop : source.topology.boundary_loops) count += loop.size();
+        return count;
+    }
+
+    void choose_start(bool smooth) {
+        map = problem.harmonic();
+        if (options.start) {
+            if (options.start->size() != source.mesh.vertex_count() - added())
+                throw Error(Cause::bad_option, "the start has " + std::to_string(options.start->size()) +
+                                                   " values for " +
+                                                   std::to_string(source.mesh.vertex_count() - added()) + " vertices");
+            map = on_split_mesh(*options.start, prepared.split);
+            prescribe(map, boundary);
+        } else if (!options.turns.empty()) {
+            map = start_in_class(source, problem.chart().vertices, options.outer_loop, boundary, options.turns).map;
+        } else if (smooth) {
+            state = coarse_start(source, boundary, problem.chart(), problem.phase(), options);
+        }
+    }
+
+    int added() const { return prepared.split ? static_cast<int>(prepared.split->parents.size()) : 0; }
+
+    /// Runs the iteration from where it stands.
+    void iterate(HamiltonIteration::Options how) {
+        how.near_last_factor = state.space && !history.empty();
+        HamiltonIteration iteration(source, problem.map_step(), problem.coefficient_step(), how);
+        iteration.run(state, map,
+                      problem.starting_space(PolynomialSpace::largest_degree(source.operators.sample_count())));
+        map = iteration.map();
+        step = iteration.last_step();
+        converged = iteration.converged();
+        history = iteration.history();
+    }
+
+    /// Opens what folds the iteration has left.
+    bool remove_folds() {
+        std::vector<Freedom> freedom = freedoms(boundary, source);
+        std::replace(freedom.begin(), freedom.end(), Freedom::sliding, Freedom::fixed);
+        const FoldFreeMap opened = fold_free_map(source, freedom, teichmueller_coefficient(step.k, step.phi), map);
+        other_factorizations += opened.factorizations;
+        if (opened.fold_free) map = opened.map;
+        return opened.fold_free;
+    }
+
+    ExtremalMap record() const;
+};
+
+ExtremalSolver::ExtremalSolver(const Surface& source, const BoundaryCondition& boundary, const ExtremalOptions& options)
+    : implementation_(std::make_unique<Implementation>(source, boundary, options)) {}
+ExtremalSolver::~ExtremalSolver() = default;
+ExtremalSolver::ExtremalSolver(ExtremalSolver&&) noexcept = default;
+
+ExtremalSolver::Update ExtremalSolver::update(const std::vector<Complex>& images, int max_iterations) {
+    Implementation& m = *implementation_;
+    if (images.size() != m.boundary.images.size())
+        throw Error(Cause::bad_boundary, "there are " + std::to_string(images.size()) + " new images for " +
+                                             std::to_string(m.boundary.images.size()) + " prescribed vertices");
+    m.boundary.images = images;
+    require_feasible(m.source, m.boundary, m.options.outer_loop);
+    m.problem.map_step().prescribed = prescribed_values(m.boundary, m.source);
+    HamiltonIteration::Options how = iteration_options(m.options);
+    how.max_iterations = max_iterations;
+    how.grow_first = how.grow_last = false;
+    m.iterate(how);
+    const Eigen::VectorXcd mu = beltrami_coefficient(m.source.operators, m.map);
+    const auto flipped = std::count_if(mu.begin(), mu.end(), [](Complex value) { return !(std::norm(value) < 1); });
+    return {m.map, m.step.k, m.history.back().change, static_cast<int>(flipped), m.converged};
+}
+
+ExtremalMap ExtremalSolver::solve() {
+    Implementation& m = *implementation_;
+    m.iterate(iteration_options(m.options));
+    bool folds_removed = false;
+    if (m.options.remove_folds && !distortion(m.source.operators, m.map).flipped.empty())
+        folds_removed = m.remove_folds();
+    ExtremalMap result = m.record();
+    result.folds_removed = folds_removed;
+    return result;
+}
+
+/// Everything that is measured on the final map, with φ of the last c-step.
+ExtremalMap ExtremalSolver::Implementation::record() const {
+    const Operators& operators = source.operators;
+    ExtremalMap result;
+    result.map = map;
+    result.harmonic = problem.harmonic();
+    result.history = history;
+    result.warnings = warnings;
+    result.iterations = static_cast<int>(history.size()) - 1;
+    result.factorizations = other_factorizations + problem.solver().factorization_count();
+    result.termination = converged ? Termination::converged : Termination::iteration_limit;
+    result.split = prepared.split;
+    if (!paths.empty()) result.homotopy = homotopy_class(source, paths, map, options.outer_loop);
+    result.distortion = distortion(operators, map);
+    result.phi = step.phi;
+    for (std::size_t i = 0; i < boundary.vertices.size(); ++i)
+        result.boundary_residual =
+            std::max(result.boundary_residual, std::abs(map[boundary.vertices[i]] - boundary.images[i]));
+
+    result.k = step.k;
+    result.K = (1 + step.k) / (1 - step.k);
+    result.K_max =
+        result.distortion.flipped.empty() ? dilatation(result.distortion.max) : std::numeric_limits<double>::infinity();
+    const ReichStrebel integrals =
+        reich_strebel(source, problem.chart(), *state.space, step.direction, result.distortion.mu);
+    if (integrals.valid) {
+        result.K = integrals.estimate;
+        result.k = (result.K - 1) / (result.K + 1);
+        result.K_lower = std::max(1.0, integrals.lower);
+        result.bounds.push_back({"reich_strebel", result.K_lower, Bound::Of::extremal, problem.chart().exact});
+        result.bounds.push_back({"reich_strebel_estimate", integrals.estimate, Bound::Of::extremal, false});
+    }
+    result.bounds.push_back({"mesh_harmonic", mesh_harmonic_bound(operators, result.harmonic), Bound::Of::mesh, true});
+    if (std::isfinite(result.K_max)) result.bounds.push_back({"attained", result.K_max, Bound::Of::extremal, true});
+    if (!result.distortion.flipped.empty())
+        result.warnings.push_back("flipped faces in the result: " + std::to_string(result.distortion.flipped.size()) +
+                                  "; it is not one-to-one there and no lower bound can be given");
+    if (result.termination == Termination::iteration_limit)
+        result.warnings.push_back("stopped after " + std::to_string(result.iterations) +
+                                  " iterations before k and φ settled");
+    if (result.k > 1e-3 && deviation(operators, result.distortion.mu, step.phi, result.k) > kRough * result.k)
+        result.warnings.push_back(
+            "the map is far from constant dilatation: the mesh is too coarse for its shape, or the extremal map is not "
+            "smooth; K is a rough estimate and K_lower may be far below K*");
+    return result;
+}
+
+}  // namespace beltrami

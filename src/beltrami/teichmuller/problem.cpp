@@ -1,0 +1,66 @@
+#include <beltrami/teichmuller/problem.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <beltrami/differentials/polynomial_space.h>
+#include <beltrami/differentials/rational_space.h>
+
+namespace beltrami {
+
+namespace {
+
+/// Around a hole, edges for each power of r/(z − c).
+constexpr int kEdgesPerPower = 6;
+constexpr int kLeastPower = 3, kMostPower = 16;
+
+/// See ExtremalProblem::phase.
+double phase_of(const Chart& chart, const BoundaryCondition& boundary) {
+    Complex mean = 0, correlation = 0;
+    for (const Complex image : boundary.images) mean += image;
+    mean /= static_cast<double>(boundary.images.size());
+    for (std::size_t i = 0; i < boundary.images.size(); ++i)
+        correlation += chart.vertices[boundary.vertices[i]] * std::conj(boundary.images[i] - mean);
+    return std::arg(correlation);
+}
+
+}  // namespace
+
+ExtremalProblem::ExtremalProblem(const Surface& source, const BoundaryCondition& boundary, int expected_factorizations)
+    : source_(source),
+      boundary_(boundary),
+      solver_(source, freedoms(boundary, source), expected_factorizations),
+      map_step_{solver_, prescribed_values(boundary, source), line_directions(boundary, source)} {
+    solver_.factorize(Eigen::VectorXcd::Zero(source.operators.sample_count()), map_step_.directions);
+    harmonic_ = solver_.solve(map_step_.prescribed);
+}
+
+void ExtremalProblem::set_chart(Chart chart, Singularities singularities, int cluster_count) {
+    chart_ = std::move(chart);
+    singularities_ = std::move(singularities);
+    phase_ = phase_of(chart_, boundary_);
+    coefficient_step_.emplace(source_, chart_, singularities_, phase_, cluster_count);
+}
+
+std::unique_ptr<DifferentialSpace> ExtremalProblem::starting_space(int largest_degree) const {
+    if (singularities_.empty()) return PolynomialSpace::starting_space(largest_degree);
+    const SampleClusters& clusters = coefficient_step_->clusters();
+    RationalSpace::Quadrature quadrature{clusters.points.positions,
+                                         Eigen::VectorXd::Zero(clusters.points.positions.size())};
+    for (std::size_t s = 0; s < clusters.cluster.size(); ++s)
+        if (clusters.cluster[s] >= 0) quadrature.weights[clusters.cluster[s]] += clusters.squared[s];
+    return RationalSpace::starting_space(singularities_, std::move(quadrature), largest_degree);
+}
+
+Singularities singularities_of(const Surface& source, const Chart& chart, const BoundaryCondition& boundary) {
+    Singularities result;
+    for (const Chart::Hole& hole : chart.holes) {
+        const int edges = static_cast<int>(source.topology.boundary_loops[hole.loop].size());
+        result.holes.push_back({hole.centre, hole.radius, std::clamp(edges / kEdgesPerPower, kLeastPower, kMostPower)});
+    }
+    for (const int v : boundary.vertices)
+        if (!source.topology.on_boundary[v]) result.pins.push_back(chart.vertices[v]);
+    return result;
+}
+
+}  // namespace beltrami

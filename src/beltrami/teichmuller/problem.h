@@ -1,0 +1,51 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include <beltrami/teichmuller/hamilton.h>
+
+namespace beltrami {
+
+/// An extremal problem made ready for the iteration: source, constraints, the f-step, a chart to write φ down in, and
+/// the c-step.
+class ExtremalProblem {
+  public:
+    /// Orders and factorises the f-step for the coefficient 0 and solves for the harmonic map.
+    /// @param source kept by reference
+    /// @param expected_factorizations see SymmetricSolver
+    ExtremalProblem(const Surface& source, const BoundaryCondition& boundary, int expected_factorizations);
+    ExtremalProblem(const ExtremalProblem&) = delete;
+
+    /// Takes a chart and where φ may be singular.
+    void set_chart(Chart chart, Singularities singularities, int cluster_count);
+
+    const Surface& source() const { return source_; }
+    BeltramiSolver& solver() { return solver_; }
+    const BeltramiSolver& solver() const { return solver_; }
+    MapStep& map_step() { return map_step_; }
+    const Eigen::VectorXcd& harmonic() const { return harmonic_; }
+    const Chart& chart() const { return chart_; }
+    CoefficientStep& coefficient_step() { return *coefficient_step_; }
+    /// Rotation of the chart that turns with the source when the boundary values are carried along.
+    double phase() const { return phase_; }
+
+    /// A first space for the singularities, which can grow up to a degree.
+    std::unique_ptr<DifferentialSpace> starting_space(int largest_degree) const;
+
+  private:
+    const Surface& source_;
+    BoundaryCondition boundary_;
+    BeltramiSolver solver_;
+    MapStep map_step_;
+    Eigen::VectorXcd harmonic_;
+    Chart chart_;
+    Singularities singularities_;
+    double phase_ = 0;
+    std::optional<CoefficientStep> coefficient_step_;
+};
+
+/// What the chart's holes, the constraints inside and the corners allow φ to have.
+Singularities singularities_of(const Surface& source, const Chart& chart, const BoundaryCondition& boundary);
+
+}  // namespace beltrami
