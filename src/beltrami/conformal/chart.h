@@ -20,8 +20,8 @@ struct Chart {
     /// The chart is holomorphic on the plane of the mesh (a similarity, or analytic below), so that pulled-back ψ are
     /// truly holomorphic.
     bool exact = false;
-    /// Of an exact chart that is no similarity: its position and derivative at a place of planar_coordinates(mesh).
-    /// Positions and derivatives are its values at the samples. Empty otherwise.
+    /// Of an exact chart: its position and derivative at a place of planar_coordinates(mesh). Positions and derivatives
+    /// are its values at the samples. May be empty for a similarity, whose derivative is constant.
     std::function<std::array<Complex, 2>(Complex)> analytic;
 
     /// A hole of the canonical domain.

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include <beltrami/conformal/annulus_map.h>
 #include <beltrami/conformal/circle_fit.h>
 #include <beltrami/conformal/fill_holes.h>
 #include <beltrami/conformal/hole_centre.h>
@@ -94,7 +95,11 @@ void evaluate_exactly(const Surface& source, const Map& map, Chart& chart) {
 
 /// The chart of a source whose outer loop lies on a circle of its plane.
 Chart exact_chart(const Surface& source, int outer_loop, const CircleFit& circle, const Eigen::VectorXcd& z) {
-    if (outer_loop == 0) return make_chart(source, (z.array() - circle.centre) / circle.radius, true);
+    if (outer_loop == 0) {
+        Chart chart = make_chart(source, (z.array() - circle.centre) / circle.radius, true);
+        chart.analytic = Moebius{1, -circle.centre, 0, circle.radius};
+        return chart;
+    }
     Chart chart;
     const Moebius map = inversion(circle, z, vertex_areas(source.operators));
     chart.exact = true;
@@ -111,6 +116,36 @@ Chart filled_chart(const Surface& source, int outer_loop, const RoundDiskOptions
     return round_disk_chart(Surface(std::move(filled.mesh)), options);
 }
 
+int loop_size(const Surface& source, int loop) {
+    return static_cast<int>(source.topology.boundary_loops[loop].size());
+}
+
+/// The loop with the most vertices but for the outer one.
+int longest_hole(const Surface& source, int outer_loop) {
+    int best = outer_loop == 0 ? 1 : 0;
+    for (int l = 0; l < static_cast<int>(source.topology.boundary_loops.size()); ++l)
+        if (l != outer_loop && loop_size(source, l) > loop_size(source, best)) best = l;
+    return best;
+}
+
+/// The round annulus between the outer loop and one hole, the others filled: on all vertices of the filled surface.
+Chart annulus_chart(const Surface& source, int outer_loop, int hole) {
+    const int vertex = source.topology.boundary_loops[outer_loop][0];
+    std::optional<Surface> filled;
+    if (source.topology.boundary_loops.size() > 2) {
+        FilledSurface fill = fill_holes(source, std::vector<int>{outer_loop, hole});
+        if (fill.metric)
+            filled.emplace(std::move(fill.mesh), std::move(*fill.metric));
+        else
+            filled.emplace(std::move(fill.mesh));
+    }
+    const Surface& annulus = filled ? *filled : source;
+    Chart chart;
+    chart.vertices = annulus_map(annulus, annulus.topology.boundary_loops[0][0] == vertex ? 0 : 1);
+    chart.factorizations = 2;
+    return chart;
+}
+
 /// A planar source with one of its holes on the outside: 1/(z − c) with c in the hole. None if faces are turned over.
 std::optional<Surface> turned_inside_out(const Surface& source, int outer_loop, const Eigen::VectorXcd& z) {
     const HoleCentre hole = hole_centre(points_of(source.topology.boundary_loops[outer_loop], z));
@@ -122,10 +157,12 @@ std::optional<Surface> turned_inside_out(const Surface& source, int outer_loop, 
         mesh.positions.row(v) << w.real(), w.imag();
     }
     try {
-        return Surface(std::move(mesh));
+        Surface surface(std::move(mesh));
+        // The other loops lie inside the outer one, unless the source covers the plane more than once.
+        if (surface.topology.boundary_loops[0][0] == source.topology.boundary_loops[outer_loop][0]) return surface;
     } catch (const Error&) {
-        return {};
     }
+    return {};
 }
 
 Chart approximate_chart(const Surface& source, int outer_loop, const Eigen::VectorXcd& z,
@@ -133,11 +170,13 @@ Chart approximate_chart(const Surface& source, int outer_loop, const Eigen::Vect
     Chart filled;
     std::optional<Surface> inside_out;
     if (source.in_plane() && outer_loop != 0) inside_out = turned_inside_out(source, outer_loop, z);
-    const int vertex = source.topology.boundary_loops[outer_loop][0];
-    if (inside_out && inside_out->topology.boundary_loops[0][0] == vertex)
-        filled = filled_chart(*inside_out, 0, options.disk);
+    const bool keeps_plane = source.in_plane() && (outer_loop == 0 || inside_out);
+    const int hole = longest_hole(source, outer_loop);
+    if (!keeps_plane && loop_size(source, hole) >= options.least_rim)
+        filled = annulus_chart(source, outer_loop, hole);
     else
-        filled = filled_chart(source, outer_loop, options.disk);
+        filled =
+            inside_out ? filled_chart(*inside_out, 0, options.disk) : filled_chart(source, outer_loop, options.disk);
     Eigen::VectorXcd g = filled.vertices.head(source.mesh.vertex_count());
     centre_in_disk(g, vertex_areas(source.operators));
     Chart chart = make_chart(source, std::move(g), false);
@@ -171,18 +210,18 @@ void make_holes_round(const Surface& source, const DomainChartOptions& options, 
     Chart rounder = chart;
     if (chart.exact) {
         const auto before = chart.analytic;
-        const Complex scale = chart.derivatives[0],
-                      origin =
-                          chart.positions[0] - scale * at_samples(source.operators, planar_coordinates(source.mesh))[0];
-        rounder.analytic = [before, rounding, scale, origin](Complex z) -> std::array<Complex, 2> {
-            const auto [g, slope] = before ? before(z) : std::array<Complex, 2>{scale * z + origin, scale};
+        rounder.analytic = [before, rounding](Complex z) -> std::array<Complex, 2> {
+            const auto [g, slope] = before(z);
             const auto [value, derivative] = rounding(g);
             return {value, derivative * slope};
         };
         evaluate_exactly(source, rounder.analytic, rounder);
     } else {
+        std::vector<char> used(chart.vertices.size(), 0);  // others may lie on a pole
+        for (const int v : source.mesh.faces.vertices()) used[v] = 1;
         parallel_for(0, static_cast<int>(chart.vertices.size()), [&](int first, int last) {
-            for (int v = first; v < last; ++v) rounder.vertices[v] = rounding(chart.vertices[v])[0];
+            for (int v = first; v < last; ++v)
+                if (used[v]) rounder.vertices[v] = rounding(chart.vertices[v])[0];
         });
         parallel_for(0, static_cast<int>(chart.positions.size()), [&](int first, int last) {
             for (int s = first; s < last; ++s) {

@@ -9,6 +9,9 @@ struct DomainChartOptions {
     double round_from = 1.2;  ///< holes are made rounder where one has a larger ratio (hole_centre.h); infinite: never
     HoleRoundingOptions rounding = {};
     RoundDiskOptions disk = {};
+    /// A surface that is not planar is mapped by way of a round annulus where a hole has so many vertices, else by way
+    /// of the filled disk.
+    int least_rim = 24;
 };
 
 /// The conformal map of a surface of genus 0 with any number of boundary loops to the unit disk with holes, @p

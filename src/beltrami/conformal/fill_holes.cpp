@@ -119,21 +119,27 @@ Cap intrinsic_cap(const Surface& source, int loop) {
 }  // namespace
 
 FilledSurface fill_holes(const Surface& source, int outer_loop) {
+    return fill_holes(source, std::vector<int>{outer_loop});
+}
+
+FilledSurface fill_holes(const Surface& source, const std::vector<int>& open) {
     const auto& boundary = source.topology.boundary_loops;
-    if (outer_loop < 0 || outer_loop >= static_cast<int>(boundary.size()))
-        throw Error(Cause::bad_option,
-                    "there is no boundary loop " + std::to_string(outer_loop) + " to leave open: the surface has " +
-                        std::to_string(boundary.size()),
-                    "loops are counted from 0, the outer one first");
+    for (const int l : open)
+        if (l < 0 || l >= static_cast<int>(boundary.size()))
+            throw Error(Cause::bad_option,
+                        "there is no boundary loop " + std::to_string(l) + " to leave open: the surface has " +
+                            std::to_string(boundary.size()),
+                        "loops are counted from 0, the outer one first");
+    const auto stays_open = [&](int l) { return std::find(open.begin(), open.end(), l) != open.end(); };
     std::vector<int> loops;
     for (int l = 0; l < static_cast<int>(boundary.size()); ++l)
-        if (l != outer_loop) loops.push_back(l);
+        if (!stays_open(l)) loops.push_back(l);
 
     FilledSurface result;
     result.mesh.positions = source.mesh.positions;
     result.mesh.faces = source.mesh.faces;
     std::vector<Cap> caps;
-    if (source.in_plane() && outer_loop == 0) {
+    if (source.in_plane() && stays_open(0)) {
         caps = planar_caps(source, loops);
         result.planar = caps.size() == loops.size();
     }

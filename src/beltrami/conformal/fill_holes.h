@@ -23,16 +23,19 @@ struct FilledSurface {
     bool planar = false;          ///< the source lies in the plane, and so do the fills, beside it
 };
 
-/// Closes every boundary loop except @p outer_loop by triangles that grow away from it (docs/conformal.md).
+/// Closes every boundary loop that is not in @p open by triangles that grow away from it (docs/conformal.md).
 ///
-/// - In the plane, where @p outer_loop is the geometric outer one (loop 0) and the others are simple polygons: the
+/// - In the plane, where the geometric outer loop (loop 0) stays open and the others are simple polygons: the
 ///   triangles lie in the holes.
 /// - Otherwise every fill has a shape of its own, glued in along sides of equal length: the flat convex polygon with
 ///   the loop's edge lengths whose corners lie on a circle, or a cone where there is none. The positions of its
 ///   vertices only show it: the harmonic surface over that polygon.
 ///
 /// A loop of three vertices is closed by one triangle. Texture coordinates are dropped.
+/// @param open loops to leave as they are
 /// @throw Error bad_option if there is no such loop
+FilledSurface fill_holes(const Surface& source, const std::vector<int>& open);
+/// Leaves one loop open.
 FilledSurface fill_holes(const Surface& source, int outer_loop = 0);
 
 }  // namespace beltrami

@@ -15,16 +15,18 @@ constexpr double kNearlyRound = 1.2;
 
 /// Distance from the sides, negative outside.
 double depth(const std::vector<Complex>& polygon, Complex p) {
-    double nearest = std::numeric_limits<double>::infinity(), turned = 0;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const Complex a = polygon[i], b = polygon[i + 1 < polygon.size() ? i + 1 : 0];
-        if (a == p) return 0;
-        const double length = std::norm(b - a);
-        const double t = length > 0 ? std::clamp(std::real(std::conj(b - a) * (p - a)) / length, 0.0, 1.0) : 0;
-        nearest = std::min(nearest, std::abs(p - (a + t * (b - a))));
-        turned += std::arg((b - p) / (a - p));
+    double nearest = std::numeric_limits<double>::infinity();
+    bool inside = false;
+    Complex a = polygon.back() - p;
+    for (const Complex corner : polygon) {
+        const Complex b = corner - p, side = b - a;
+        const double length = std::norm(side);
+        const double t = length > 0 ? std::clamp(-std::real(std::conj(side) * a) / length, 0.0, 1.0) : 0;
+        nearest = std::min(nearest, std::norm(a + t * side));
+        if ((a.imag() > 0) != (b.imag() > 0) && a.real() - a.imag() * side.real() / side.imag() > 0) inside = !inside;
+        a = b;
     }
-    return std::abs(turned) > 3 ? nearest : -nearest;
+    return inside ? std::sqrt(nearest) : -std::sqrt(nearest);
 }
 
 /// Centre of the polygon's area.

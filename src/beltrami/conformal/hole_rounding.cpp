@@ -13,15 +13,31 @@ namespace beltrami {
 namespace {
 
 constexpr double kLargestStretch = 0.5;  // of |F′ − 1| in one step
-constexpr double kRidge = 1e-9;   // of the diagonal: the maps of the disk to itself leave the conditions as they are
+constexpr double kFirstRidge = 1e-6;     // of the diagonal
+constexpr double kSmallestRidge = 1e-9;
+constexpr double kLargestRidge = 1;
+constexpr double kSpread = 20;    // of a power on its rim
 constexpr int kMostSamples = 96;  // of a rim
 constexpr int kMostUnknowns = 600;
-constexpr double kDiverged = 1e-3;  // a step has to lower the ratio's excess by this part
+constexpr double kDiverged = 1e-3;  // a step has to lower the misfit by this part
 
 double worst_ratio(const std::vector<std::vector<Complex>>& rims) {
     double worst = 1;
     for (const auto& rim : rims) worst = std::max(worst, hole_centre(rim).ratio);
     return worst;
+}
+
+/// Root mean square of the rims' distances from their circles, relative to these.
+double misfit(const std::vector<std::vector<Complex>>& rims) {
+    double sum = 0;
+    for (const auto& rim : rims) {
+        const CircleFit circle = fit_circle(rim);
+        for (const Complex z : rim) {
+            const double off = std::abs(z - circle.centre) / circle.radius - 1;
+            sum += off * off / static_cast<double>(rim.size() * rims.size());
+        }
+    }
+    return std::sqrt(sum);
 }
 
 /// The powers of one pole at a place and their derivatives: t^j and s^j.
@@ -36,8 +52,9 @@ struct Powers {
     }
 };
 
-/// The Newton step from the present rims, without damping.
-CircleMap newton_step(const std::vector<std::vector<Complex>>& rims, int most_terms) {
+/// The Newton step from the present rims, without damping. The ridge holds back what hardly matters for the roundness:
+/// the maps of the disk to itself among others.
+CircleMap newton_step(const std::vector<std::vector<Complex>>& rims, int most_terms, double ridge) {
     CircleMap step;
     std::vector<std::vector<Complex>> samples;
     std::vector<int> first_column{0};
@@ -45,7 +62,9 @@ CircleMap newton_step(const std::vector<std::vector<Complex>>& rims, int most_te
     for (const auto& rim : rims) {
         const int n = static_cast<int>(rim.size());
         const HoleCentre centre = hole_centre(rim);
-        const int terms = std::clamp(n / 3, 1, most_terms);
+        // A power may differ along the rim by the factor kSpread at most: others are noise where the rim is near.
+        const double fitting = std::log(kSpread) / std::log(std::max(centre.ratio, 1.01));
+        const int terms = std::clamp(std::min(n / 3, static_cast<int>(fitting)), 1, most_terms);
         step.poles.push_back({centre.centre, centre.radius, Eigen::VectorXcd::Zero(terms)});
         auto& chosen = samples.emplace_back();
         const int count = std::min(n, kMostSamples);
@@ -92,7 +111,7 @@ CircleMap newton_step(const std::vector<std::vector<Complex>>& rims, int most_te
     for (double& s : scale) s = s > 0 ? 1 / s : 0;
     A = A * scale.asDiagonal();
     Eigen::MatrixXd gram = gram_lower(A);
-    gram.diagonal().array() += kRidge;
+    gram.diagonal().array() += ridge;
     const Eigen::VectorXd x = scale.cwiseProduct(gram.selfadjointView<Eigen::Lower>().ldlt().solve(A.transpose() * b));
     for (int h = 0; h < holes; ++h)
         for (Eigen::Index j = 0; j < step.poles[h].coefficients.size(); ++j)
@@ -153,20 +172,33 @@ HoleRounding round_holes(std::vector<std::vector<Complex>> rims, const HoleRound
     result.ratio = result.ratio_before = worst_ratio(rims);
     const int terms =
         std::clamp(kMostUnknowns / (2 * static_cast<int>(std::max<std::size_t>(1, rims.size()))), 2, options.terms);
-    while (result.ratio > options.wanted_ratio && static_cast<int>(result.steps.size()) < options.max_steps) {
-        CircleMap step = newton_step(rims, terms);
+    double error = misfit(rims), ridge = kFirstRidge;
+    for (int trial = 0; trial < options.max_steps && result.ratio > options.wanted_ratio && ridge < kLargestRidge;
+         ++trial) {
+        CircleMap step = newton_step(rims, terms, ridge);
         const double stretch = largest_stretch(step, rims);
-        if (!std::isfinite(stretch)) break;
-        if (stretch > kLargestStretch)
-            for (auto& pole : step.poles) pole.coefficients *= kLargestStretch / stretch;
         std::vector<std::vector<Complex>> moved = rims;
-        for (auto& rim : moved)
-            for (Complex& z : rim) z = step(z)[0];
-        const double ratio = worst_ratio(moved);
-        if (!(ratio - 1 < (1 - kDiverged) * (result.ratio - 1))) break;
+        double moved_error = error;
+        if (std::isfinite(stretch)) {
+            if (stretch > kLargestStretch)
+                for (auto& pole : step.poles) pole.coefficients *= kLargestStretch / stretch;
+            for (auto& rim : moved)
+                for (Complex& z : rim) z = step(z)[0];
+            moved_error = misfit(moved);
+        }
+        if (!(moved_error < (1 - kDiverged) * error)) {
+            ridge *= 30;
+            continue;
+        }
+        ridge = std::max(kSmallestRidge, ridge / 5);
+        error = moved_error;
         rims = std::move(moved);
-        result.ratio = ratio;
+        result.ratio = worst_ratio(rims);
         result.steps.push_back(std::move(step));
+    }
+    if (!(result.ratio < result.ratio_before)) {
+        result.steps.clear();
+        result.ratio = result.ratio_before;
     }
     return result;
 }

@@ -1,11 +1,11 @@
 #include <beltrami/conformal/round_disk.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
 
+#include <beltrami/conformal/circle_fit.h>
 #include <beltrami/conformal/flatten.h>
 #include <beltrami/maps/beltrami_solver.h>
 #include <beltrami/mesh/planar.h>
@@ -15,31 +15,6 @@ namespace beltrami {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-
-/// If all boundary points lie on one circle: its centre and radius, else radius 0.
-std::pair<Complex, double> boundary_circle(const Surface& source, const Eigen::VectorXcd& z) {
-    const auto& loop = source.topology.boundary_loops[0];
-    // Algebraic fit |z|² = 2 Re(conj(c) z) + d, about the mean for conditioning.
-    Complex mean = 0;
-    for (const int v : loop) mean += z[v];
-    mean /= static_cast<double>(loop.size());
-    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-    Eigen::Vector3d rhs = Eigen::Vector3d::Zero();
-    double scale = 0;
-    for (const int v : loop) scale = std::max(scale, std::abs(z[v] - mean));
-    for (const int v : loop) {
-        const Complex p = (z[v] - mean) / scale;
-        const Eigen::Vector3d row(2 * p.real(), 2 * p.imag(), 1);
-        normal += row * row.transpose();
-        rhs += row * std::norm(p);
-    }
-    const Eigen::Vector3d fit = normal.ldlt().solve(rhs);
-    const Complex centre = mean + scale * Complex(fit[0], fit[1]);
-    const double radius = scale * std::sqrt(std::max(0.0, fit[2] + fit[0] * fit[0] + fit[1] * fit[1]));
-    for (const int v : loop)
-        if (std::abs(std::abs(z[v] - centre) - radius) > 1e-7 * radius) return {0.0, 0.0};
-    return {centre, radius};
-}
 
 /// What makes the chart's two linear solves: extension of boundary values, and the conjugate function.
 struct HarmonicFunctions {
@@ -180,8 +155,10 @@ Chart compute_chart(const Surface& source, const BeltramiSolver* dirichlet, cons
     int factorizations = 0;
     if (source.in_plane()) {
         w = planar_coordinates(source.mesh);
-        const auto [centre, radius] = boundary_circle(source, w);
-        if (radius > 0) return make_chart(source, (w.array() - centre) / radius, true);
+        std::vector<Complex> boundary;
+        for (const int v : topology.boundary_loops[0]) boundary.push_back(w[v]);
+        const CircleFit circle = fit_circle(boundary);
+        if (circle.exact()) return make_chart(source, (w.array() - circle.centre) / circle.radius, true);
     } else {
         FlattenOptions flatten_options;
         flatten_options.tolerance = kFlattenTolerance;
