@@ -124,6 +124,12 @@ const std::vector<Method>& methods() {
         {"mips", [](const Case& c) { return baseline(mips_baseline(c.source, c.boundary)); }},
         {"alternation", [](const Case& c) { return baseline(alternation_baseline(c.source, c.boundary)); }},
         {"qc", [](const Case& c) { return baseline(qc_iteration_baseline(c.source, c.boundary)); }},
+        {"qc, arg μ not smoothed",
+         [](const Case& c) {
+             BaselineOptions options;
+             options.smoothing = 0;
+             return baseline(qc_iteration_baseline(c.source, c.boundary, options));
+         }},
         {"extremal", [](const Case& c) {
              const ExtremalMap result = extremal_map(c.source, c.boundary);
              return Outcome{result.map, result.k,

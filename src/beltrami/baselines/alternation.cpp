@@ -14,7 +14,7 @@ namespace {
 using Form = detail::HarmonicForms::Form;
 
 /// Of the differential's lagged weights 1/|φ|: the least |φ|, relative to its maximum.
-constexpr double kLeastPhi = 1e-6;
+constexpr double kLeastPhi = 1e-4;
 /// Steps of the differential between two of the map.
 constexpr int kMostInnerSteps = 10;
 
@@ -94,7 +94,7 @@ BaselineMap alternation_baseline(const Surface& source, const BoundaryCondition&
     result.factorizations = 1;
     if (detail::must_fold(source, boundary, result)) return result;
 
-    const detail::HarmonicForms forms(source, result.warnings);
+    detail::HarmonicForms forms(source, result.warnings);
     Form form = forms.zero();
     Eigen::VectorXcd phi;
     double k = 0;

@@ -14,7 +14,7 @@ namespace beltrami::detail {
 
 namespace {
 
-constexpr double kFitTolerance = 1e-6;
+constexpr double kFitTolerance = 1e-5;
 constexpr int kMostFitSteps = 500;
 
 std::vector<Freedom> one_vertex_held(const Surface& source) {
@@ -165,8 +165,7 @@ void add(HarmonicForms::Form& to, double factor, const HarmonicForms::Form& form
 
 HarmonicForms::HarmonicForms(const Surface& source, std::vector<std::string>& warnings)
     : operators_(source.operators),
-      factorizations_(2),
-      neumann_(source.operators, one_vertex_held(source)),
+      neumann_(source.operators, one_vertex_held(source), 10),
       dirichlet_(source.operators, boundary_held(source)) {
     if (source.topology.genus != 0)
         throw Error(Cause::bad_mesh,
@@ -192,14 +191,6 @@ HarmonicForms::HarmonicForms(const Surface& source, std::vector<std::string>& wa
         const Eigen::VectorXd u = neumann_.solve(force(flux).potential);
         for (int s = 0; s < samples; ++s) hole[s] -= 2.0 * operators_.derivatives(s, u.cast<Complex>())[1];
     }
-    Eigen::MatrixXd gram(hole_count(), hole_count());
-    for (int l = 0; l < hole_count(); ++l)
-        for (int m = 0; m < hole_count(); ++m) {
-            gram(l, m) = 0;
-            for (int s = 0; s < samples; ++s)
-                gram(l, m) += operators_.weights[s] * std::real(std::conj(hole_fields_[l][s]) * hole_fields_[m][s]);
-        }
-    hole_gram_inverse_ = gram.llt().solve(Eigen::MatrixXd::Identity(hole_count(), hole_count()));
 }
 
 HarmonicForms::Form HarmonicForms::zero() const {
@@ -231,17 +222,39 @@ HarmonicForms::Form HarmonicForms::force(const Eigen::VectorXcd& flux) const {
     return result;
 }
 
-/// The harmonic form whose unweighted inner product with every harmonic form is that of the residual: of all forms
-/// (Neumann), less its part that vanishes on the boundary, which is orthogonal to harmonic ones.
+Eigen::VectorXd HarmonicForms::laplacian(const Eigen::VectorXd& u) const {
+    Eigen::VectorXd result = Eigen::VectorXd::Zero(u.size());
+    const Eigen::VectorXcd values = u.cast<Complex>();
+    for (int s = 0; s < operators_.sample_count(); ++s) {
+        const Complex flux = 2 * operators_.weights[s] * operators_.derivatives(s, values)[1];
+        const auto stencil = operators_.stencil(s);
+        const auto g = operators_.gradient(s);
+        for (std::size_t j = 0; j < g.size(); ++j) result[stencil[j]] += std::real(std::conj(g[j]) * flux);
+    }
+    return result;
+}
+
+/// From a linear function of harmonic forms to a harmonic form near the one it is the weighted product with. The
+/// function is first read by boundary values alone, then those of the weighted problem are extended harmonically.
 HarmonicForms::Form HarmonicForms::precondition(const Form& residual) const {
-    return {neumann_.solve(residual.potential) - dirichlet_.solve(residual.potential),
-            hole_gram_inverse_ * residual.periods};
+    Eigen::VectorXd reduced = residual.potential - laplacian(dirichlet_.solve(residual.potential));
+    const Eigen::VectorXd weighted = neumann_.solve(reduced);
+    return {weighted - dirichlet_.solve(laplacian(weighted)), hole_gram_inverse_ * residual.periods};
 }
 
 HarmonicForms::Form HarmonicForms::fit(const Eigen::VectorXd& weights, const Eigen::VectorXcd& pull,
-                                       const Form& start) const {
+                                       const Form& start) {
     // |φ|² = |field|² |dz|², Re(conj(pull) φ) = Re(conj(field) dz conj(pull)).
     const Eigen::VectorXcd scale = weights.cwiseProduct(dz_.cwiseAbs2()).cast<Complex>();
+    std::vector<double> scales(scale.size());
+    for (std::size_t s = 0; s < scales.size(); ++s) scales[s] = scale[s].real();
+    neumann_.factorize(scales);
+    Eigen::MatrixXd gram(hole_count(), hole_count());
+    for (int l = 0; l < hole_count(); ++l)
+        for (int m = 0; m < hole_count(); ++m)
+            gram(l, m) = hole_fields_[l].dot(scale.cwiseProduct(hole_fields_[m])).real();
+    hole_gram_inverse_ = gram.llt().solve(Eigen::MatrixXd::Identity(hole_count(), hole_count()));
+
     const Eigen::VectorXcd wanted = dz_.cwiseProduct(pull.conjugate());
 
     Form x = start;

@@ -57,16 +57,18 @@ class Neighbours {
         }
     }
 
-    /// One Jacobi step of smoothing the arguments of complex numbers, which keep no size.
+    /// One Jacobi step of smoothing the arguments of complex numbers, which keep no size: every argument goes by this
+    /// part of the way to those of the neighbours, an edge without a neighbour counting as one that agrees.
     /// @param phase    #S, in the samples' frames
     /// @param smoothed #S of modulus 1
-    void smooth(const Eigen::VectorXcd& phase, Eigen::VectorXcd& smoothed) const {
+    void smooth(const Eigen::VectorXcd& phase, double part, Eigen::VectorXcd& smoothed) const {
         parallel_for(0, static_cast<int>(phase.size()), [&](int first, int last) {
             for (int s = first; s < last; ++s) {
                 double turn = 0;
                 for (int n = offsets_[s]; n < offsets_[s + 1]; ++n)
                     turn += std::arg(phase[samples_[n]] * turns_[n] * std::conj(phase[s]));
-                smoothed[s] = std::polar(1.0, std::arg(phase[s]) + turn / (offsets_[s + 1] - offsets_[s] + 1));
+                const auto edges = static_cast<double>(operators_.stencil(s).size());
+                smoothed[s] = std::polar(1.0, std::arg(phase[s]) + part * turn / edges);
             }
         });
     }
@@ -134,11 +136,11 @@ BaselineMap qc_iteration_baseline(const Surface& source, const BoundaryCondition
             const auto [d_z, d_zbar] = operators.derivatives(s, result.map);
             phase[s] = d_zbar * std::conj(d_z);
             const double size = std::abs(d_z), other = std::abs(d_zbar);
-            mean += operators.weights[s] * (other < kMostMu * size ? other / size : other > 0 ? kMostMu : 0.0);
+            mean += other < kMostMu * size ? other / size : other > 0 ? kMostMu : 0.0;
             phase[s] = size > 0 && other > 0 ? phase[s] / (size * other) : Complex(1);
         }
-        mean /= area;
-        neighbours.smooth(phase, smoothed);
+        mean /= samples;
+        neighbours.smooth(phase, options.smoothing, smoothed);
         double change = 0;
         for (int s = 0; s < samples; ++s) {
             const Complex next = mean * smoothed[s];
