@@ -17,8 +17,12 @@ namespace {
 using Baseline = BaselineMap (*)(const Surface&, const BoundaryCondition&, const BaselineOptions&);
 
 const std::map<std::string, Baseline>& baselines() {
-    static const std::map<std::string, Baseline> methods{
-        {"harmonic", harmonic_baseline}, {"lscm", lscm_baseline}, {"arap", arap_baseline}, {"mips", mips_baseline}};
+    static const std::map<std::string, Baseline> methods{{"harmonic", harmonic_baseline},
+                                                         {"lscm", lscm_baseline},
+                                                         {"arap", arap_baseline},
+                                                         {"mips", mips_baseline},
+                                                         {"alternation", alternation_baseline},
+                                                         {"qc", qc_iteration_baseline}};
     return methods;
 }
 
@@ -33,7 +37,7 @@ class Map final : public Command {
         app->add_option(
                "--method", method_,
                "extremal needs every boundary vertex prescribed; lscm, arap and mips can leave the boundary free")
-            ->check(CLI::IsMember({"extremal", "harmonic", "lscm", "arap", "mips"}))
+            ->check(CLI::IsMember({"extremal", "harmonic", "lscm", "arap", "mips", "alternation", "qc"}))
             ->capture_default_str();
         boundary_.add_to(*app);
         app->add_option("--metric", metric_,
@@ -44,7 +48,7 @@ class Map final : public Command {
                "--compare", compare_,
                "further methods to set beside the map, on the same boundary values (lscm on its own free boundary)")
             ->delimiter(',')
-            ->check(CLI::IsMember({"harmonic", "lscm", "arap", "mips"}))
+            ->check(CLI::IsMember({"harmonic", "lscm", "arap", "mips", "alternation", "qc"}))
             ->type_name("METHOD,...");
         common_.add_to(*app);
         app->footer(kExitCodes);

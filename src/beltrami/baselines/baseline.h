@@ -13,10 +13,13 @@ namespace beltrami {
 struct BaselineOptions {
     int max_iterations = 1000;
     /// Stop when √(part by which a step lowers the energy) is below this, for ARAP the part of the source area, for
-    /// MIPS as Newton's method predicts it. No unit.
+    /// MIPS as Newton's method predicts it, for the alternation the part of the image's area. For the QC iteration:
+    /// when the coefficient changes by less than this (root mean square). No unit.
     double tolerance = 1e-5;
+    double smoothing = 0.5;  ///< of arg μ by one step of the QC iteration, 0 … 1; the other methods ignore it
     /// Called once per iteration with its number and the energy (ARAP: per source area, 0 for an isometry; MIPS: mean,
-    /// 1 for a conformal map); returning false cancels (Error cancelled).
+    /// 1 for a conformal map; alternation and QC iteration: Σ A |∂̄f − ν∂f|² per area of the image); returning false
+    /// cancels (Error cancelled).
     std::function<bool(int iteration, double energy)> progress;
 
     /// @throw Error bad_option naming the first impossible value
@@ -61,5 +64,36 @@ BaselineMap arap_baseline(const Surface& source, const BoundaryCondition& bounda
 /// @throw Error bad_mesh, bad_boundary, not_solved, cancelled, bad_option
 BaselineMap mips_baseline(const Surface& source, const BoundaryCondition& boundary,
                           const BaselineOptions& options = {});
+
+/// The alternation of Weber, Myles & Zorin 2012 (Algorithm 1) for the Teichmüller map, kept as the paper has it for
+/// comparison with extremal_map: descent of Σ A |∂̄f − k conj(φ)/|φ| ∂f|² in turn over φ (a quadratic problem with
+/// lagged weights 1/|φ|, then a line search), k (the best one) and f (one linear solve), from the harmonic map. φ is
+/// discretely holomorphic, a harmonic 1-form on the edges (section 4.1). The energy never rises.
+///
+/// Any surface of genus 0, with holes and interior pins. Folds are not excluded. Deviations: k by least squares, where
+/// the paper's eq. (12) is garbled; φ from 2∂u, where (8) as printed gives the conjugate; a surface in space is
+/// flattened only to write φ down, and keeps its metric in ∂ and ∂̄; at most 10 steps of φ between two of f; |φ| below
+/// 1e-4 of its maximum counts as that in the weights. Interior pins, which the paper does not treat, hold f only: φ has
+/// no poles there.
+/// @pre the whole boundary is prescribed
+/// @throw Error bad_mesh (genus), bad_boundary, not_solved, cancelled, bad_option
+BaselineMap alternation_baseline(const Surface& source, const BoundaryCondition& boundary,
+                                 const BaselineOptions& options = {});
+
+/// The QC iteration of Lui, Gu & Yau 2014 (arXiv 1307.2679; Ng, Gu & Lui, section 5.2, without their damping): from the
+/// harmonic map, |μ| of every face is replaced by the mean over all faces, arg μ smoothed by one Jacobi step over face
+/// neighbours, and the map with that coefficient solved for; again and again. Everything is local and nothing knows of
+/// holomorphic differentials, so a limit need not be a Teichmüller map (Gruber & Aulisa 2022, remark 5.1, on multiply
+/// connected domains; docs/baselines.md has measurements). No energy need fall.
+///
+/// Any topology, with interior pins. Folds are not excluded. Details: arg μ goes by `smoothing` of the way to the mean
+/// of its neighbours, differences taken in (−π, π]; the default of one half is Gruber & Aulisa's Algorithm 4, by way of
+/// the edges; 0 leaves arg μ alone. Coefficients of neighbours are turned into the face's frame across their common
+/// edge, e^{−2iθ}, so that surfaces need no flattening; |μ| counts as at most 0.95 in the mean; a quad's samples are
+/// neighbours of each other.
+/// @pre the whole boundary is prescribed
+/// @throw Error bad_mesh, bad_boundary, not_solved, cancelled, bad_option
+BaselineMap qc_iteration_baseline(const Surface& source, const BoundaryCondition& boundary,
+                                  const BaselineOptions& options = {});
 
 }  // namespace beltrami

@@ -12,6 +12,7 @@ namespace beltrami {
 void BaselineOptions::validate() const {
     if (max_iterations < 1) throw Error(Cause::bad_option, "max_iterations must be at least 1");
     if (!(tolerance > 0 && tolerance < 1)) throw Error(Cause::bad_option, "tolerance must lie between 0 and 1");
+    if (!(smoothing >= 0 && smoothing <= 1)) throw Error(Cause::bad_option, "smoothing must lie between 0 and 1");
 }
 
 namespace detail {

@@ -26,8 +26,12 @@ struct Method {
     const char* name;
     Function map;
 };
-const std::vector<Method> kAll{
-    {"harmonic", harmonic_baseline}, {"lscm", lscm_baseline}, {"arap", arap_baseline}, {"mips", mips_baseline}};
+const std::vector<Method> kAll{{"harmonic", harmonic_baseline},
+                               {"lscm", lscm_baseline},
+                               {"arap", arap_baseline},
+                               {"mips", mips_baseline},
+                               {"alternation", alternation_baseline},
+                               {"qc", qc_iteration_baseline}};
 const std::vector<Method> kFree{{"lscm", lscm_baseline}, {"arap", arap_baseline}, {"mips", mips_baseline}};
 
 /// A hill without symmetry over the disk.
@@ -89,7 +93,9 @@ TEST(Baselines, KeepPrescribedVerticesWhereTheyAre) {
                                                   return pins;
                                               }()})
         for (const Method& method : kAll) {
-            if (boundary.vertices.size() == 3 && method.map == harmonic_baseline) continue;
+            const bool whole = method.map == harmonic_baseline || method.map == alternation_baseline ||
+                               method.map == qc_iteration_baseline;
+            if (boundary.vertices.size() == 3 && whole) continue;
             const BaselineMap result = method.map(source, boundary, {});
             for (std::size_t i = 0; i < boundary.vertices.size(); ++i)
                 EXPECT_EQ(result.map[boundary.vertices[i]], boundary.images[i]) << method.name;
@@ -172,6 +178,8 @@ TEST(Baselines, RejectWhatIsMissing) {
     partial.pin(31, 2.0);
     expect_error(Cause::bad_boundary, "without a prescribed image", [&] { harmonic_baseline(source, partial); });
     expect_error(Cause::bad_boundary, "without a prescribed image", [&] { harmonic_baseline(source, {}); });
+    expect_error(Cause::bad_boundary, "without a prescribed image", [&] { alternation_baseline(source, partial); });
+    expect_error(Cause::bad_boundary, "without a prescribed image", [&] { qc_iteration_baseline(source, partial); });
     expect_error(Cause::bad_boundary, "two pins", [&] { lscm_baseline(source, one); });
     for (const Method& method : kFree)
         expect_error(Cause::bad_boundary, "two pins", [&] { method.map(source, same, {}); });
@@ -205,13 +213,17 @@ TEST(Baselines, RejectWhatIsMissing) {
         options = {};
         options.tolerance = 0;
         expect_error(Cause::bad_option, "tolerance", [&] { method.map(source, one, options); });
+        options = {};
+        options.smoothing = 1.5;
+        expect_error(Cause::bad_option, "smoothing", [&] { method.map(source, one, options); });
     }
 }
 
 TEST(Baselines, CanBeCancelledAndLimited) {
     const Surface source(hill(8));
     const BoundaryCondition boundary = to_circle(source, 0.5);
-    for (const Method& method : {Method{"arap", arap_baseline}, Method{"mips", mips_baseline}}) {
+    for (const Method& method : {Method{"arap", arap_baseline}, Method{"mips", mips_baseline},
+                                 Method{"alternation", alternation_baseline}, Method{"qc", qc_iteration_baseline}}) {
         BaselineOptions options;
         options.progress = [](int iteration, double) { return iteration < 2; };
         expect_error(Cause::cancelled, "2", [&] { method.map(source, boundary, options); });
@@ -411,6 +423,17 @@ TEST(Peers, MultiplyConnectedDomainWithPinnedBoundary) {
     EXPECT_NEAR(conformal.mean, 0.107, 6e-4);
     EXPECT_NEAR(conformal.deviation, 0.087, 6e-4);
     EXPECT_NEAR(conformal.largest, 0.465, 6e-4);
+
+    // The QC iteration of other programs gives .210, .012, .256 and no flip after 300 steps: its argument not smoothed.
+    BaselineOptions options;
+    options.max_iterations = 300;
+    options.smoothing = 0;
+    const BaselineMap qc = qc_iteration_baseline(source, boundary, options);
+    EXPECT_TRUE(distortion(source.operators, qc.map).flipped.empty());
+    const Statistics even = unweighted(source, qc.map);
+    EXPECT_NEAR(even.mean, 0.210, 6e-4);
+    EXPECT_NEAR(even.deviation, 0.012, 6e-4);
+    EXPECT_NEAR(even.largest, 0.256, 6e-4);
 }
 
 }  // namespace
