@@ -16,6 +16,7 @@
 #include <beltrami/io/write_mesh.h>
 #include <beltrami/locate/planar_locator.h>
 #include <beltrami/maps/beltrami_solver.h>
+#include <beltrami/maps/boundary_corners.h>
 #include <beltrami/maps/boundary_feasibility.h>
 #include <beltrami/maps/composition.h>
 #include <beltrami/maps/fold_free.h>
