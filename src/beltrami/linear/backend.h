@@ -16,6 +16,8 @@ class CholeskyBackend {
     /// (smallest / largest pivot) of the Cholesky factor: a cheap bound of the reciprocal condition number.
     virtual double pivot_ratio() const = 0;
     virtual void solve(const Eigen::MatrixXd& rhs, Eigen::MatrixXd& solution) = 0;
+    /// The same to a few digits only, as a preconditioner wants it, if that is cheaper.
+    virtual void solve_roughly(const Eigen::MatrixXd& rhs, Eigen::MatrixXd& solution) { solve(rhs, solution); }
 };
 
 std::unique_ptr<CholeskyBackend> make_backend(const CholeskyBackend::Matrix& lower, int expected_factorizations);

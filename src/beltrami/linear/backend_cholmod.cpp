@@ -3,12 +3,14 @@
 #include <cholmod.h>
 #include <dlfcn.h>
 
+#include <memory>
 #include <mutex>
 #include <new>
 #include <string>
 
 #include <beltrami/linear/backend.h>
 #include <beltrami/linear/dense.h>
+#include <beltrami/linear/supernodal_factor.h>
 #include <beltrami/linear/symmetric_solver.h>
 #include <beltrami/mesh/error.h>
 
@@ -110,6 +112,7 @@ class CholmodBackend final : public CholeskyBackend {
 
     bool factorize(const Matrix& lower) override {
         const SerialOpenMp serial;
+        rough_ = Rough::not_made;
         cholmod_sparse view = view_of(lower);
         const int done = cholmod_factorize(&view, factor_, &common_);
         if (!done || common_.status < CHOLMOD_OK) fail("the factorisation of a sparse system failed");
@@ -133,7 +136,33 @@ class CholmodBackend final : public CholeskyBackend {
         solution = Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(solution_->x), rhs.rows(), rhs.cols());
     }
 
+    void solve_roughly(const Eigen::MatrixXd& rhs, Eigen::MatrixXd& solution) override {
+        if (rough_ == Rough::not_made) {
+            rough_ = Rough::impossible;
+            if (factor_->is_super && factor_->is_ll) {
+                const SupernodalView view = supernodal_view();
+                if (!rough_factor_) rough_factor_ = std::make_unique<SupernodalFactor>(view);
+                if (rough_factor_->load(view)) rough_ = Rough::ready;
+            }
+        }
+        if (rough_ == Rough::ready)
+            rough_factor_->solve(rhs, solution);
+        else
+            solve(rhs, solution);
+    }
+
   private:
+    SupernodalView supernodal_view() const {
+        return {static_cast<int>(factor_->n),
+                static_cast<int>(factor_->nsuper),
+                static_cast<const int*>(factor_->super),
+                static_cast<const int*>(factor_->pi),
+                static_cast<const int*>(factor_->px),
+                static_cast<const int*>(factor_->s),
+                static_cast<const double*>(factor_->x),
+                static_cast<const int*>(factor_->Perm)};
+    }
+
     static cholmod_sparse view_of(const Matrix& lower) {
         cholmod_sparse view{};
         view.nrow = view.ncol = static_cast<std::size_t>(lower.rows());
@@ -164,6 +193,9 @@ class CholmodBackend final : public CholeskyBackend {
     cholmod_dense* solution_ = nullptr;
     cholmod_dense* workspace_y_ = nullptr;
     cholmod_dense* workspace_e_ = nullptr;
+    enum class Rough { not_made, ready, impossible };
+    Rough rough_ = Rough::not_made;  ///< state of the copy of the present factor
+    std::unique_ptr<SupernodalFactor> rough_factor_;
 };
 
 }  // namespace

@@ -166,7 +166,7 @@ bool SymmetricSolver::solve_near(const Eigen::MatrixXd& rhs, Eigen::MatrixXd& so
     const Eigen::RowVectorXd reference = columnwise(solution, residual).cwiseMax(0.0);
     residual = rhs - residual;
     Eigen::MatrixXd z, direction, image;
-    b.cholesky->solve(residual, z);
+    b.cholesky->solve_roughly(residual, z);
     Eigen::RowVectorXd rz = columnwise(residual, z);
     const Eigen::RowVectorXd target = tolerance * tolerance * reference;
     const auto excess = [&] {  // how far the worst column is from its target
@@ -188,7 +188,7 @@ bool SymmetricSolver::solve_near(const Eigen::MatrixXd& rhs, Eigen::MatrixXd& so
             solution.col(j) += length * direction.col(j);
             residual.col(j) -= length * image.col(j);
         }
-        b.cholesky->solve(residual, z);
+        b.cholesky->solve_roughly(residual, z);
         const Eigen::RowVectorXd next = columnwise(residual, z);
         for (Eigen::Index j = 0; j < rz.size(); ++j) {
             if (rz[j] > target[j]) direction.col(j) = z.col(j) + (next[j] / rz[j]) * direction.col(j);

@@ -10,6 +10,7 @@
 #include <beltrami/linear/element_assembly.h>
 #include <beltrami/linear/symmetric_solver.h>
 #include <beltrami/mesh/error.h>
+#include <beltrami/mesh/parallel.h>
 
 namespace beltrami {
 namespace {
@@ -105,6 +106,36 @@ TEST(SymmetricSolver, SolvesNearbyMatricesWithAnOldFactor) {
     // Far away it gives up within the steps allowed.
     for (Eigen::Index i = 0; i < 400; ++i) solver.matrix().coeffRef(i, i) += 100.0 * static_cast<double>(i % 7);
     EXPECT_FALSE(solver.solve_near(rhs, x, 1e-12, 4));
+}
+
+TEST(SymmetricSolver, NearbySolutionsOfALargeSystemAreExactInAnyUnitAndWithAnyThreads) {
+    // Large enough for a supernodal factor with subtrees; the tiniest unit does not fit into single precision.
+    const int side = 110, n = side * side, threads = thread_count();
+    for (const double unit : {1.0, 1e25, 1e-120}) {
+        SymmetricSolver solver(grid_laplacian(side, 0.2), 2);
+        solver.matrix().coeffs() *= unit;
+        solver.factorize();
+        for (Eigen::Index i = 0; i < n; ++i) solver.matrix().coeffRef(i, i) *= 1 + 0.05 * std::sin(0.1 * i);
+        for (const int columns : {1, 2, 3}) {
+            Eigen::MatrixXd rhs(n, columns);
+            for (int j = 0; j < columns; ++j)
+                for (int i = 0; i < n; ++i) rhs(i, j) = unit * std::pow(10.0, -30 * j) * std::cos(0.01 * (j + 1) * i);
+            std::vector<Eigen::MatrixXd> found;
+            for (const int count : {1, 4}) {
+                set_thread_count(count);
+                Eigen::MatrixXd x = rhs / unit;
+                ASSERT_TRUE(solver.solve_near(rhs, x, 1e-12, 20)) << unit << " " << columns;
+                found.push_back(x);
+            }
+            set_thread_count(threads);
+            EXPECT_EQ(found[0], found[1]);
+            const Eigen::MatrixXd& x = found[0];
+            const Eigen::MatrixXd residual = std::as_const(solver).matrix().selfadjointView<Eigen::Lower>() * x - rhs;
+            for (int j = 0; j < columns; ++j)
+                EXPECT_LT(residual.col(j).cwiseAbs().maxCoeff(), 1e-10 * rhs.col(j).cwiseAbs().maxCoeff());
+        }
+        EXPECT_EQ(solver.factorization_count(), 1);
+    }
 }
 
 TEST(Dense, GramMatrix) {
