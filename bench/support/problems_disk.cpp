@@ -91,12 +91,12 @@ Problem three_lobes_jittered(double edge_length) {
 
 Problem three_lobes_graded(double edge_length) {
     DomainOptions options;
-    options.edge_length = 2 * edge_length;
-    options.grading = 1;
+    options.edge_length = 1.5 * edge_length;
+    options.grading = 0.5;
     options.min_angle = 0.2;
     for (const Complex at : {Complex(0.3, 0.2), Complex(-0.5, 0.4), Complex(0.1, -0.7)})
         options.sources.push_back({point(at), edge_length / 12});
-    return lobes_on("three_lobes_graded", "; edges from h/12 at three places to 2h, angles down to 11 degrees",
+    return lobes_on("three_lobes_graded", "; edges from h/12 at three places to 1.5h, angles down to 11 degrees",
                     circle_domain({}, {}, options));
 }
 
@@ -184,6 +184,7 @@ Problem notched_disk(double edge_length) {
     Mesh mesh = polygon_mesh(notched_circle(5, 0.06, 0.45, 100), edge_length, edge_length / 2);
     BoundaryPlacement placement;
     placement.speed = BoundarySpeed::conformal;
+    placement.start = 12;  // in the middle of an arc: away from corners, where conformal angles are least exact
     const auto boundary = boundary_to_disk(Surface(mesh), 0.5, placement);
     return with_boundary(
         "notched_disk",

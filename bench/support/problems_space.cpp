@@ -40,7 +40,7 @@ double smoothstep(double low, double high, double x) {
 
 Problem screw(double edge_length) {
     constexpr int starts = 3;
-    constexpr double spacing = 0.9, depth = 0.22, height = 4.5, inner = 0.4;
+    constexpr double spacing = 0.9, depth = 0.22, height = 3, inner = 0.45;
     // A step along the axis turns the thread by one column, so that its edges run through vertices.
     const int nu = 6 * std::max(2, static_cast<int>(std::lround(2 * pi / edge_length / 6)));
     const double step = spacing * starts / nu;
@@ -48,7 +48,7 @@ Problem screw(double edge_length) {
     Mesh mesh = cylinder(1, nz * step, nu, nz);
     Problem problem;
     problem.name = "screw";
-    problem.statement = "A screw with three threads to the annulus .4 < |w| < 1, both rims at even speed";
+    problem.statement = "A screw with three threads to the annulus .45 < |w| < 1, both rims at even speed";
     problem.witness.emplace(mesh.vertex_count());
     for (int i = 0; i < nu; ++i)
         for (int j = 0; j <= nz; ++j) {

@@ -95,6 +95,23 @@ TEST(Problems, HarmonicStartsFoldWhereTheyShould) {
     }
 }
 
+TEST(Problems, AFoldFreeMapKeepsTheCadPartsFeaturesOnTheirLines) {
+    Problem problem = cad_part(0.1);
+    std::set<int> pinned(problem.boundary.vertices.begin(), problem.boundary.vertices.end());
+    for (const FeatureCurve& curve : problem.features)
+        for (std::size_t i = 0; i < curve.vertices.size(); ++i)
+            if (pinned.insert(curve.vertices[i]).second) problem.boundary.pin(curve.vertices[i], curve.images[i]);
+    const Surface surface(problem.mesh);
+    FoldFreeOptions options;
+    options.tolerance = 1e-2;
+    const FoldFreeMap map =
+        fold_free_map(surface, freedoms(problem.boundary, surface), Eigen::VectorXcd::Zero(surface.mesh.face_count()),
+                      harmonic_map(surface, problem.boundary), options);
+    EXPECT_TRUE(map.fold_free);
+    EXPECT_EQ(map_quality(problem, map.map).flipped, 0);
+    EXPECT_LT(map_quality(problem, map.map).pin_error, 1e-14);
+}
+
 // No closed form is at hand for a fold-free map of these: one is computed.
 TEST(Problems, FoldFreeMapsExistWhereNoWitnessIsGiven) {
     for (const NamedProblem& entry : named_problems()) {
