@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Draws the gallery's pictures: draw.py DATA_FOLDER PICTURE_FOLDER. DATA_FOLDER has pictures.json and PLY files.
 
-A picture is a row (or rows) of panels: "map" (a planar mesh coloured by |mu|), "histogram", "curves" and "surface"
-(a mesh in space with a checkerboard of the map's plane, or coloured by |mu|)."""
+A picture is a row (or rows) of panels: "map" (a planar mesh coloured by |mu|), "grid" (the image of a polar chessboard),
+"histogram", "curves" and "surface" (a mesh in space with a checkerboard of the map's plane, or coloured by |mu|)."""
 import io
 import json
 import sys
@@ -13,11 +13,13 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib import ticker
 from matplotlib.collections import PolyCollection
 from PIL import Image
 
 MOST_BYTES = 80_000
 FLIPPED = (0.85, 0.1, 0.1, 1.0)
+CHECKER = (0.30, 0.45, 0.69), (0.95, 0.93, 0.86)
 PANEL = 2.9  # inches
 DPI = 110
 TYPES = {"char": "i1", "uchar": "u1", "short": "<i2", "ushort": "<u2", "int": "<i4", "uint": "<u4",
@@ -84,19 +86,35 @@ def draw_map(axes, panel, load):
     # Flipped faces last, so that they are seen.
     order = np.argsort(data["mu"] >= 1, kind="stable")
     polygons = points[data["triangles"][order]]
-    size = np.ptp(points, axis=0).max()
-    width = 0.25 if len(polygons) < 12000 else 0.0
+    width = 0.3 if len(polygons) < 2000 else 0.0
     # Faces also drawn as thin lines of their own colour: no seams between them.
     axes.add_collection(PolyCollection(polygons, facecolors=colours[order],
                                        edgecolors=(0, 0, 0, 0.25) if width else colours[order],
                                        linewidths=width or 0.3))
+    frame(axes, points)
+    return panel["max"]
+
+
+def frame(axes, points):
     low, high = points.min(0), points.max(0)
-    margin = 0.02 * size
+    margin = 0.02 * (high - low).max()
     axes.set_xlim(low[0] - margin, high[0] + margin)
     axes.set_ylim(low[1] - margin, high[1] + margin)
     axes.set_aspect("equal")
     axes.set_axis_off()
-    return panel["max"]
+
+
+def draw_grid(axes, panel, load):
+    data = load(panel["data"])
+    source = data["space"][data["triangles"], :2].mean(1)
+    sector = 2 * np.pi / 24
+    parity = np.floor(np.arctan2(source[:, 1], source[:, 0]) / sector)
+    parity += np.floor(np.log(np.hypot(source[:, 0], source[:, 1])) / sector)
+    colours = np.where(parity[:, None] % 2 == 1, CHECKER[0], CHECKER[1])
+    colours[data["mu"] >= 1] = FLIPPED[:3]
+    axes.add_collection(PolyCollection(data["plane"][data["triangles"]], facecolors=colours, edgecolors=colours,
+                                       linewidths=0.3))
+    frame(axes, data["plane"])
 
 
 def draw_histogram(axes, panel, load):
@@ -124,6 +142,9 @@ def draw_curves(axes, panel, load):
     axes.set_ylabel(panel["y"], fontsize=8)
     axes.tick_params(labelsize=7)
     axes.grid(alpha=0.3, which="both", linewidth=0.4)
+    axes.yaxis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)))
+    axes.yaxis.set_major_formatter(ticker.FormatStrFormatter("%g"))
+    axes.yaxis.set_minor_formatter(ticker.NullFormatter())
     axes.legend(fontsize=7, frameon=False)
 
 
@@ -173,7 +194,7 @@ def draw_surface(axes, panel, load):
         place = np.einsum("pi,pij->pj", bary[seen], data["plane"][corners])
         square = np.ptp(data["plane"], axis=0).max() / panel["squares"]
         parity = np.floor(place / square).astype(int).sum(1) % 2
-        colours = np.where(parity[:, None] == 1, [0.30, 0.45, 0.69], [0.95, 0.93, 0.86])
+        colours = np.where(parity[:, None] == 1, CHECKER[0], CHECKER[1])
         colours[data["mu"][face[seen]] >= 1] = FLIPPED[:3]
     else:
         colours = colours_of(data["mu"][face[seen]], panel["max"])[:, :3]
@@ -193,22 +214,40 @@ def draw_surface(axes, panel, load):
                 x, y = np.round((1 - t) * screen[a] + t * screen[b]).astype(int)
                 if nearest[y, x] <= (1 - t) * depth[a] + t * depth[b] + 0.02 * size:
                     picture[max(y - 1, 0):y + 2, max(x - 1, 0):x + 2] = (0.1, 0.1, 0.1)
-    picture = picture.reshape(pixels // 2, 2, pixels // 2, 2, 3).mean((1, 3))
+    rows = np.flatnonzero(seen.any(1))
+    picture = picture[max(rows[0] // 2 * 2 - 8, 0):rows[-1] // 2 * 2 + 10]
+    picture = picture.reshape(len(picture) // 2, 2, pixels // 2, 2, 3).mean((1, 3))
     axes.imshow(picture, origin="lower", interpolation="none")
     axes.set_axis_off()
 
 
-def save(figure, path):
-    """A palette PNG of at most MOST_BYTES: fewer colours, then fewer pixels, until it fits."""
+def fixed_palette():
+    """256 colours of flat pictures: the scale, flipped red, greys and the lines of histograms, each fading to white."""
+    colours = [c[:3] for c in matplotlib.colormaps["viridis"](np.linspace(0, 1, 128))]
+    colours += [(g, g, g) for g in np.linspace(0, 1, 48)]
+    lines = [matplotlib.colors.to_rgb(f"C{i}") for i in range(8)]
+    for c, steps in [(np.array(FLIPPED[:3]), 8)] + [(np.array(c), 6) for c in lines + list(CHECKER)]:
+        colours += [tuple(c + (1 - c) * t) for t in np.linspace(0, 1, steps, endpoint=False)]
+    image = Image.new("P", (1, 1))
+    image.putpalette([int(round(255 * x)) for c in colours[:256] for x in c])
+    return image
+
+
+def save(figure, path, flat):
+    """A palette PNG of at most MOST_BYTES: fewer colours (where they are not fixed), then fewer pixels, until it fits."""
     buffer = io.BytesIO()
     figure.savefig(buffer, format="png", dpi=DPI)
     plt.close(figure)
     full = Image.open(buffer).convert("RGB")
     for scale in (1, 0.85, 0.7, 0.55, 0.4):
         image = full if scale == 1 else full.resize([int(scale * s) for s in full.size], Image.LANCZOS)
-        for count in (256, 96, 48):
+        for count in (256,) if flat else (256, 128):
             packed = io.BytesIO()
-            image.quantize(count, dither=Image.Dither.NONE).save(packed, "PNG", optimize=True)
+            if flat:
+                reduced = image.quantize(palette=fixed_palette(), dither=Image.Dither.NONE)
+            else:
+                reduced = image.quantize(count, dither=Image.Dither.NONE)
+            reduced.save(packed, "PNG", optimize=True)
             if packed.tell() <= MOST_BYTES:
                 path.write_bytes(packed.getvalue())
                 return
@@ -218,7 +257,7 @@ def save(figure, path):
 def main():
     source, target = Path(sys.argv[1]), Path(sys.argv[2])
     target.mkdir(parents=True, exist_ok=True)
-    draw = {"map": draw_map, "histogram": draw_histogram, "curves": draw_curves, "surface": draw_surface}
+    draw = {"map": draw_map, "grid": draw_grid, "histogram": draw_histogram, "curves": draw_curves, "surface": draw_surface}
     for picture in json.loads((source / "pictures.json").read_text()):
         panels = picture["panels"]
         if not panels:
@@ -246,7 +285,7 @@ def main():
             maps = [a for a, p in zip(grid.flat, panels) if p["kind"] == "map"]
             bar = figure.colorbar(scale, ax=maps, shrink=0.7, aspect=25, pad=0.01)
             bar.ax.tick_params(labelsize=7)
-        save(figure, target / (picture["name"] + ".png"))
+        save(figure, target / (picture["name"] + ".png"), all(p["kind"] != "surface" for p in panels))
         print(picture["name"])
 
 

@@ -22,8 +22,9 @@ Figure figure_07(Output& output) {
                   "Where the extremal map is known (four points of the disk, rings, compositions) the computed maps "
                   "match it; the deviation of |μ| from its constant falls as the mesh is refined, for boundary values "
                   "of no known map likewise."};
-    Table table{usual_head("case"), {}};
-    Table order{{"case", "triangles", "k", "exact k", "deviation of abs(μ)", "of the interpolated exact map",
+    Table table{"", usual_head("case"), {}};
+    Table order{"",
+                {"case", "triangles", "k", "exact k", "deviation of abs(μ)", "of the interpolated exact map",
                  "largest vertex error"},
                 {}};
     std::vector<Curve> curves;
@@ -61,8 +62,7 @@ Figure figure_07(Output& output) {
             Picture picture{"figure_07_" + name, problem.statement + ".", {}, 4};
             const std::string data = output.write("figure_07_" + name, surface, solved);
             std::vector<std::pair<std::string, std::string>> lines{{"beltrami", data}};
-            if (!problem.mesh.positions.hasNaN() && surface.in_plane())
-                picture.panels.push_back(map_panel(data, "source", shown, "source"));
+            if (surface.in_plane()) picture.panels.push_back(map_panel(data, "source", shown, "source"));
             picture.panels.push_back(map_panel(data, "extremal map", shown));
             if (problem.exact) {
                 const Solved exact = solve_with(surface, "exact", [&] { return *problem.exact; });

@@ -1,4 +1,4 @@
-// Figures of simply connected planar problems: 3, 11, 15, 16, 17.
+// Figures of simply connected planar problems: 3, 9, 11, 15, 16, 17.
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +12,7 @@ Figure figure_03(Output& output) {
     Figure figure{"Figure 3: extremal, but not of Teichmüller type",
                   "|z|z on the upper half-plane, seen on the disk, is known to be extremal for its boundary values "
                   "and is not a Teichmüller map (K = 2, k = 1/3)."};
-    Table table{usual_head("map"), {}};
+    Table table{"", usual_head("map"), {}};
     const Problem problem = half_plane_square(0.03);
     const Surface surface(problem.mesh);
     const Solved exact = solve_with(surface, "exact", [&] { return *problem.exact; });
@@ -33,6 +33,34 @@ Figure figure_03(Output& output) {
     return figure;
 }
 
+Figure figure_09(Output& output) {
+    Figure figure{"Figure 9: zeros of the differential",
+                  "After 3 iterations from the harmonic map the zeros of the quadratic differential become visible; in "
+                  "the final map they are isolated spots of small |μ|."};
+    const Problem problem = three_lobes(0.03);
+    const Surface surface(problem.mesh);
+    Table table{problem.statement, usual_head("map"), {}};
+    Picture picture{"figure_09", "The harmonic map, after one and three iterations, and the final map.", {}, 4};
+    for (const int iterations : {0, 1, 3, 60}) {
+        const std::string name = iterations == 0    ? "harmonic"
+                                 : iterations == 60 ? "final"
+                                                    : std::to_string(iterations) + " iterations";
+        const Solved solved = solve_with(surface, name, [&] {
+            if (iterations == 0) return harmonic_map(surface, problem.boundary);
+            ExtremalOptions options;
+            options.max_iterations = iterations;
+            return extremal_map(surface, problem.boundary, options).map;
+        });
+        table.rows.push_back(usual_row(name, solved));
+        if (!solved) continue;
+        picture.panels.push_back(
+            map_panel(output.write("figure_09_" + std::to_string(iterations), surface, solved), name, 0.5, "source"));
+    }
+    figure.tables.push_back(std::move(table));
+    figure.pictures.push_back(std::move(picture));
+    return figure;
+}
+
 Figure figure_11(Output& output) {
     Figure figure{"Figure 11: minimising powers directly",
                   "Direct minimisation of max k makes little progress; of the powers ∫k^p, low and high p do not give "
@@ -40,7 +68,7 @@ Figure figure_11(Output& output) {
     const Problem problem = three_lobes(0.04);
     const Surface surface(problem.mesh);
     const Solved extremal = solve(surface, problem.boundary, "extremal");
-    Table table{{"map", "mean abs(μ)", "std", "p99", "max", "flips", "Newton steps", "seconds"}, {}};
+    Table table{"", {"map", "mean abs(μ)", "std", "p99", "max", "flips", "Newton steps", "seconds"}, {}};
     const auto add = [&](const std::string& name, const Solved& solved, int steps) {
         const Distortion& d = solved.distortion;
         table.rows.push_back({name, number(d.mean), number(d.standard_deviation), number(d.p99), number(d.max),
@@ -89,7 +117,7 @@ Figure figure_15(Output& output) {
     for (const std::string name : {"three_lobes", "arrow_head_65"}) {
         const Problem problem = named_problem(name);
         const Surface surface(problem.mesh);
-        Table table{usual_head(problem.statement), {}};
+        Table table{problem.statement, usual_head("method"), {}};
         Picture picture{
             "figure_15_" + name, "Harmonic, ARAP, MIPS and extremal map: " + problem.statement + ".", {}, 4};
         std::vector<std::pair<std::string, std::string>> lines;
@@ -112,7 +140,7 @@ Figure figure_15(Output& output) {
 Figure figure_16(Output& output) {
     Figure figure{"Figure 16: regular and irregular meshes",
                   "For meshes fine enough, the result is largely independent of the connectivity."};
-    Table table{usual_head("mesh"), {}};
+    Table table{"", usual_head("mesh"), {}};
     Picture picture{"figure_16", "The three lobes on four meshes: regular, jittered, badly graded, stretched.", {}, 4};
     std::vector<std::pair<std::string, std::string>> lines;
     for (const std::string kind : {"", "_jittered", "_graded", "_anisotropic"}) {
@@ -137,7 +165,7 @@ Figure figure_17(Output& output) {
     Figure figure{"Figure 17: few triangles",
                   "A square to a wedge: for simple boundaries few triangles already "
                   "approximate the map well; an irregular mesh at each resolution."};
-    Table table{usual_head("triangles"), {}};
+    Table table{"", usual_head("triangles"), {}};
     Picture picture{"figure_17", "The square to a wedge at growing resolution.", {}, 4};
     for (const double edge_length : {0.2, 0.1, 0.05, 0.025}) {
         Problem problem = wedge(edge_length);

@@ -1,4 +1,4 @@
-// Figures of surfaces and of multiply connected domains: 10, 12, 13, 14, 19.
+// Figures of surfaces and of multiply connected domains: 2, 10, 12, 13, 14, 19.
 #include <set>
 
 #include <beltrami/generate/random.h>
@@ -24,9 +24,11 @@ struct Comparison {
 
     void run(const std::vector<std::string>& methods) {
         const Surface surface(problem.mesh);
-        Table table{usual_head(problem.statement), {}};
+        Table table{problem.statement, usual_head("method"), {}};
         Picture flat{name, problem.statement + ".", {}, 4}, views{name + "_surface", "On the surface.", {}, 4};
         std::vector<std::pair<std::string, std::string>> lines;
+        auto edges = problem.highlights;
+        for (const FeatureCurve& curve : problem.features) edges.push_back(curve.vertices);
         for (const std::string& method : methods) {
             const Solved solved = solve(surface, boundary, method);
             table.rows.push_back(usual_row(method, solved));
@@ -35,8 +37,8 @@ struct Comparison {
             lines.push_back({method, output.write(name + "_" + method, surface, solved)});
             flat.panels.push_back(map_panel(lines.back().second, label, max_mu));
             if (surface.in_plane()) continue;
-            views.panels.push_back(surface_panel(lines.back().second, method, "checker", azimuth, elevation, squares,
-                                                 max_mu, problem.highlights));
+            views.panels.push_back(
+                surface_panel(lines.back().second, method, "checker", azimuth, elevation, squares, max_mu, edges));
         }
         flat.panels.push_back(histogram_panel(lines, "|μ|", {}, max_mu));
         figure.tables.push_back(std::move(table));
@@ -46,6 +48,33 @@ struct Comparison {
 };
 
 }  // namespace
+
+Figure figure_02(Output& output) {
+    Figure figure{"Figure 2: homotopy classes",
+                  "On a ring, maps with the same boundary values need not be homotopic; an extremal map is unique in "
+                  "each class only."};
+    Table table{
+        "Exact maps of .05 < |z| < 1 to .0112 < |w| < 1 with the same boundary values: r → r^1.5 and so many turns",
+        {"turns", "exact k", "exact K", "mean abs(μ)", "std", "flips"},
+        {}};
+    Picture picture{"figure_02", "The same boundary values, different turns: the exact extremal maps.", {}, 4};
+    for (const int turns : {-1, 0, 1, 2}) {
+        const Problem problem = annulus_turns(0.06, turns);
+        const Surface surface(problem.mesh);
+        const Solved exact = solve_with(surface, "exact", [&] { return *problem.exact; });
+        const std::string name = std::to_string(turns);
+        const double k = *problem.exact_k;
+        table.rows.push_back({name, number(k, 5), number((1 + k) / (1 - k), 4), number(exact.distortion.mean, 5),
+                              number(exact.distortion.standard_deviation, 5),
+                              std::to_string(exact.distortion.flipped.size())});
+        // Lines of the source: |μ| alone would be one colour.
+        picture.panels.push_back(grid_panel(output.write("figure_02_" + std::to_string(turns + 1), surface, exact),
+                                            name + (turns == 1 || turns == -1 ? " turn" : " turns")));
+    }
+    figure.tables.push_back(std::move(table));
+    figure.pictures.push_back(std::move(picture));
+    return figure;
+}
 
 Figure figure_10(Output& output) {
     Figure figure{"Figure 10: dependence on the start",
@@ -80,7 +109,7 @@ Figure figure_12(Output& output) {
     for (const FeatureCurve& curve : problem.features)
         for (std::size_t i = 0; i < curve.vertices.size(); ++i)
             if (pinned.insert(curve.vertices[i]).second) boundary.pin(curve.vertices[i], curve.images[i]);
-    Comparison{output, figure, "figure_12", problem, boundary, 20, 40, 24, 0.7}.run({"harmonic", "ARAP", "extremal"});
+    Comparison{output, figure, "figure_12", problem, boundary, -40, 50, 24, 0.7}.run({"harmonic", "ARAP", "extremal"});
     return figure;
 }
 

@@ -15,8 +15,9 @@
 /// pictures; draw.py draws them.
 namespace beltrami::gallery {
 
-/// Rows of a table in Markdown.
+/// Rows of a table in Markdown. No cell holds a vertical bar.
 struct Table {
+    std::string caption;  ///< a paragraph before the table; may be empty
     std::vector<std::string> head;
     std::vector<std::vector<std::string>> rows;
 };
@@ -73,6 +74,8 @@ class Output {
 /// The image of a map; domain "source": the planar source itself with the colours of the map.
 nlohmann::json map_panel(const std::string& data, const std::string& title, double max_mu = 1,
                          const std::string& domain = "image");
+/// The image of a planar mesh with a polar chessboard of the source, 24 sectors and rings of their shape.
+nlohmann::json grid_panel(const std::string& data, const std::string& title);
 /// Histograms of |μ|, one line each; a vertical line at k.
 nlohmann::json histogram_panel(const std::vector<std::pair<std::string, std::string>>& labels_and_data,
                                const std::string& title, std::optional<double> k = {}, double max_mu = 1);
@@ -102,8 +105,10 @@ struct Entry {
 /// All figures in the order of the page.
 const std::vector<Entry>& figures();
 
+Figure figure_02(Output& output);  ///< homotopy classes
 Figure figure_03(Output& output);  ///< a map that is extremal and not of Teichmüller type
 Figure figure_07(Output& output);  ///< known maps and prescribed boundary values, and convergence (with Fig. 8)
+Figure figure_09(Output& output);  ///< zeros of the differential appear
 Figure figure_10(Output& output);  ///< dependence on the start
 Figure figure_11(Output& output);  ///< direct minimisation of powers
 Figure figure_12(Output& output);  ///< aligned features

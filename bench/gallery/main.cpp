@@ -50,6 +50,7 @@ std::string row_of(const std::vector<std::string>& cells) {
 std::string section(const std::string& name, const Figure& figure) {
     std::string text = marker(name) + "## " + figure.title + "\n\n*The paper:* " + figure.statement + "\n\n";
     for (const Table& table : figure.tables) {
+        if (!table.caption.empty()) text += table.caption + ".\n\n";
         text += row_of(table.head) + row_of(std::vector<std::string>(table.head.size(), "---"));
         for (const auto& row : table.rows) text += row_of(row);
         text += "\n";

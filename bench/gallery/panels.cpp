@@ -27,6 +27,10 @@ json map_panel(const std::string& data, const std::string& title, double max_mu,
     return {{"kind", "map"}, {"data", data}, {"title", title}, {"max", max_mu}, {"domain", domain}};
 }
 
+json grid_panel(const std::string& data, const std::string& title) {
+    return {{"kind", "grid"}, {"data", data}, {"title", title}};
+}
+
 json histogram_panel(const std::vector<std::pair<std::string, std::string>>& labels_and_data, const std::string& title,
                      std::optional<double> k, double max_mu) {
     json series = json::array();

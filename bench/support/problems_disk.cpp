@@ -228,10 +228,10 @@ Problem disk_to_gear(double edge_length) {
 }
 
 Problem wedge(double edge_length) {
-    return with_homeomorphism("wedge", "The unit square to a trapezoid with sides 0.1 and 1, even speed on each side",
+    return with_homeomorphism("wedge", "The unit square to a trapezoid with sides 0.4 and 1, even speed on each side",
                               unit_square(edge_length), [](Complex z) {
                                   const double x = z.real(), y = z.imag() - 0.5;
-                                  return Complex(x, y * (0.1 + 0.9 * x));
+                                  return Complex(x, y * (0.4 + 0.6 * x));
                               });
 }
 

@@ -56,9 +56,9 @@ Problem screw(double edge_length) {
             const double angle = 2 * pi * i / nu, along = static_cast<double>(j) / nz;
             // Threads fade at both ends, where the rims are round.
             const int phase = ((i * starts + j * starts) % nu + nu) % nu;
-            const double tooth = 1 - std::abs(2.0 * phase / nu - 1);
+            const double tooth = std::abs(2.0 * phase / nu - 1);  // 1 on the sharp edge, 0 half way to the next
             const double fade = smoothstep(0, 0.12, along) * smoothstep(0, 0.12, 1 - along);
-            const double radius = 1 - depth * fade * (2 * std::abs(tooth - 0.5));
+            const double radius = 1 - depth * fade * (1 - tooth);
             mesh.positions.row(v) << radius * std::cos(angle), radius * std::sin(angle), j * step;
             // The lower rim goes outside: so the front of the surface is seen from above.
             (*problem.witness)[v] = std::polar(1 - (1 - inner) * along, angle);
@@ -135,7 +135,7 @@ Problem cad_part(double edge_length) {
         }
         const double between = s > 1 && s < 2 ? std::sin(pi * (s - 1)) : 0.0;
         const double rib = 0.35 * between * std::max(0.0, t - 1.5) / 1.5;
-        const double angle = 0.42 * t * (1 + 0.08 * std::sin(2 * s)), swell = 1 + 0.06 * t * t / 3;
+        const double angle = -0.42 * t * (1 + 0.08 * std::sin(2 * s)), swell = 1 + 0.06 * t * t / 3;
         return Eigen::Vector3d((radius + rib) * swell * std::cos(angle), (radius + rib) * swell * std::sin(angle),
                                height * (1 + 0.12 * std::sin(1.1 * t)) + 0.5 * rib);
     });
