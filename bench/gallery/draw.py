@@ -1,0 +1,293 @@
+#!/usr/bin/env python3
+"""Draws the gallery's pictures: draw.py DATA_FOLDER PICTURE_FOLDER. DATA_FOLDER has pictures.json and PLY files.
+
+A picture is a row (or rows) of panels: "map" (a planar mesh coloured by |mu|), "grid" (the image of a polar chessboard),
+"histogram", "curves" and "surface" (a mesh in space with a checkerboard of the map's plane, or coloured by |mu|)."""
+import io
+import json
+import sys
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib import ticker
+from matplotlib.collections import PolyCollection
+from PIL import Image
+
+MOST_BYTES = 80_000
+FLIPPED = (0.85, 0.1, 0.1, 1.0)
+CHECKER = (0.30, 0.45, 0.69), (0.95, 0.93, 0.86)
+PANEL = 2.9  # inches
+DPI = 110
+TYPES = {"char": "i1", "uchar": "u1", "short": "<i2", "ushort": "<u2", "int": "<i4", "uint": "<u4",
+         "float": "<f4", "double": "<f8", "int8": "i1", "uint8": "u1", "int32": "<i4", "uint32": "<u4",
+         "float32": "<f4", "float64": "<f8"}
+
+
+def read_ply(path):
+    """Positions, map, triangles and |mu| of a binary PLY as the gallery writes it; quads are cut in two."""
+    data = path.read_bytes()
+    end = data.index(b"end_header\n") + len(b"end_header\n")
+    elements = []
+    for line in data[:end].decode().splitlines():
+        words = line.split()
+        if words[0] == "element":
+            elements.append((words[1], int(words[2]), []))
+        elif words[0] == "property":
+            elements[-1][2].append(words[1:])
+    vertices = triangles = mu = None
+    for name, count, properties in elements:
+        if name == "vertex":
+            layout = np.dtype([(p[1], TYPES[p[0]]) for p in properties])
+            vertices = np.frombuffer(data, layout, count, end)
+            end += layout.itemsize * count
+        elif name == "face":
+            triangles, mu = [], []
+            before = [p for p in properties]
+            for _ in range(count):
+                for p in before:
+                    if p[0] == "list":
+                        n = int(np.frombuffer(data, TYPES[p[1]], 1, end)[0])
+                        end += np.dtype(TYPES[p[1]]).itemsize
+                        face = np.frombuffer(data, TYPES[p[2]], n, end)
+                        end += np.dtype(TYPES[p[2]]).itemsize * n
+                    else:
+                        value = np.frombuffer(data, TYPES[p[0]], 1, end)[0]
+                        end += np.dtype(TYPES[p[0]]).itemsize
+                        if p[1] == "abs_mu":
+                            size = float(value)
+                for i in range(1, len(face) - 1):
+                    triangles.append((face[0], face[i], face[i + 1]))
+                    mu.append(size)
+    fields = vertices.dtype.names
+    space = np.stack([vertices["x"], vertices["y"], vertices["z"] if "z" in fields else 0 * vertices["x"]], 1)
+    return {"space": space, "plane": np.stack([vertices["u"], vertices["v"]], 1),
+            "triangles": np.array(triangles), "mu": np.array(mu)}
+
+
+def colours_of(mu, largest):
+    colours = matplotlib.colormaps["viridis"](np.clip(mu / largest, 0, 1))
+    colours[mu >= 1] = FLIPPED
+    return colours
+
+
+def areas_of(data):
+    p = data["space"][data["triangles"]]
+    return 0.5 * np.linalg.norm(np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]), axis=1)
+
+
+def draw_map(axes, panel, load):
+    data = load(panel["data"])
+    points = data["space"][:, :2] if panel["domain"] == "source" else data["plane"]
+    colours = colours_of(data["mu"], panel["max"])
+    # Flipped faces last, so that they are seen.
+    order = np.argsort(data["mu"] >= 1, kind="stable")
+    polygons = points[data["triangles"][order]]
+    width = 0.3 if len(polygons) < 2000 else 0.0
+    # Faces also drawn as thin lines of their own colour: no seams between them.
+    axes.add_collection(PolyCollection(polygons, facecolors=colours[order],
+                                       edgecolors=(0, 0, 0, 0.25) if width else colours[order],
+                                       linewidths=width or 0.3))
+    frame(axes, points)
+    return panel["max"]
+
+
+def frame(axes, points):
+    low, high = points.min(0), points.max(0)
+    margin = 0.02 * (high - low).max()
+    axes.set_xlim(low[0] - margin, high[0] + margin)
+    axes.set_ylim(low[1] - margin, high[1] + margin)
+    axes.set_aspect("equal")
+    axes.set_axis_off()
+
+
+def draw_grid(axes, panel, load):
+    data = load(panel["data"])
+    source = data["space"][data["triangles"], :2].mean(1)
+    sector = 2 * np.pi / 24
+    parity = np.floor(np.arctan2(source[:, 1], source[:, 0]) / sector)
+    parity += np.floor(np.log(np.hypot(source[:, 0], source[:, 1])) / sector)
+    colours = np.where(parity[:, None] % 2 == 1, CHECKER[0], CHECKER[1])
+    colours[data["mu"] >= 1] = FLIPPED[:3]
+    axes.add_collection(PolyCollection(data["plane"][data["triangles"]], facecolors=colours, edgecolors=colours,
+                                       linewidths=0.3))
+    frame(axes, data["plane"])
+
+
+def draw_histogram(axes, panel, load):
+    bins = np.linspace(0, panel["max"], 81)
+    for entry in panel["series"]:
+        data = load(entry["data"])
+        weights = areas_of(data)
+        # What lies beyond the axis is counted in the last bin, flipped faces too.
+        share, _ = np.histogram(np.minimum(data["mu"], panel["max"] * 0.999), bins, weights=weights)
+        axes.step(bins[:-1], 100 * share / weights.sum(), where="post", label=entry["label"], linewidth=1)
+    if "k" in panel:
+        axes.axvline(panel["k"], color="0.4", linestyle="--", linewidth=0.8)
+    axes.set_xlim(0, panel["max"])
+    axes.set_ylim(0)
+    axes.set_xlabel("|μ|", fontsize=8)
+    axes.set_ylabel("% of the area", fontsize=8)
+    axes.tick_params(labelsize=7)
+    axes.legend(fontsize=7, frameon=False)
+
+
+def draw_curves(axes, panel, load):
+    for entry in panel["series"]:
+        axes.loglog(entry["x"], entry["y"], "o-", markersize=3, linewidth=1, label=entry["label"])
+    axes.set_xlabel(panel["x"], fontsize=8)
+    axes.set_ylabel(panel["y"], fontsize=8)
+    axes.tick_params(labelsize=7)
+    axes.grid(alpha=0.3, which="both", linewidth=0.4)
+    axes.yaxis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)))
+    axes.yaxis.set_major_formatter(ticker.FormatStrFormatter("%g"))
+    axes.yaxis.set_minor_formatter(ticker.NullFormatter())
+    axes.legend(fontsize=7, frameon=False)
+
+
+def rasterise(screen, depth, triangles, pixels):
+    """Face seen at each pixel (-1: none) and its barycentric coordinates there, by a z-buffer."""
+    face = np.full((pixels, pixels), -1)
+    nearest = np.full((pixels, pixels), -np.inf)
+    bary = np.zeros((pixels, pixels, 3))
+    for f, corners in enumerate(triangles):
+        a, b, c = screen[corners]
+        area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+        if abs(area) < 1e-12:
+            continue
+        x0, y0 = np.maximum(np.floor(np.minimum(np.minimum(a, b), c)), 0).astype(int)
+        x1, y1 = np.minimum(np.ceil(np.maximum(np.maximum(a, b), c)) + 1, pixels).astype(int)
+        x, y = np.meshgrid(np.arange(x0, x1), np.arange(y0, y1))
+        w1 = ((x - a[0]) * (c[1] - a[1]) - (y - a[1]) * (c[0] - a[0])) / area
+        w2 = ((b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0])) / area
+        w0 = 1 - w1 - w2
+        z = w0 * depth[corners[0]] + w1 * depth[corners[1]] + w2 * depth[corners[2]]
+        seen = (w0 >= -1e-9) & (w1 >= -1e-9) & (w2 >= -1e-9) & (z > nearest[y0:y1, x0:x1])
+        nearest[y0:y1, x0:x1][seen] = z[seen]
+        face[y0:y1, x0:x1][seen] = f
+        bary[y0:y1, x0:x1][seen] = np.stack([w0, w1, w2], -1)[seen]
+    return face, nearest, bary
+
+
+def draw_surface(axes, panel, load):
+    data = load(panel["data"])
+    azimuth, elevation = np.radians(panel["azimuth"]), np.radians(panel["elevation"])
+    towards = np.array([np.cos(elevation) * np.cos(azimuth), np.cos(elevation) * np.sin(azimuth), np.sin(elevation)])
+    right = np.array([-np.sin(azimuth), np.cos(azimuth), 0])
+    up = np.cross(towards, right)
+    points = data["space"] - (data["space"].max(0) + data["space"].min(0)) / 2
+    flat = np.stack([points @ right, points @ up], 1)
+    pixels = 2 * int(PANEL * DPI)
+    low, size = flat.min(0), np.ptp(flat, axis=0).max()
+    offset = (size - np.ptp(flat, axis=0)) / 2
+    screen = (flat - low + offset) / size * (pixels - 20) + 10
+    depth = points @ towards
+    triangles = data["triangles"]
+    face, nearest, bary = rasterise(screen, depth, triangles, pixels)
+    seen = face >= 0
+    picture = np.ones((pixels, pixels, 3))
+    corners = triangles[face[seen]]
+    if panel["colour"] == "checker":
+        place = np.einsum("pi,pij->pj", bary[seen], data["plane"][corners])
+        square = np.ptp(data["plane"], axis=0).max() / panel["squares"]
+        parity = np.floor(place / square).astype(int).sum(1) % 2
+        colours = np.where(parity[:, None] == 1, CHECKER[0], CHECKER[1])
+        colours[data["mu"][face[seen]] >= 1] = FLIPPED[:3]
+    else:
+        colours = colours_of(data["mu"][face[seen]], panel["max"])[:, :3]
+    p = data["space"][triangles]
+    normals = np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
+    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
+    light = towards + 0.5 * up - 0.4 * right
+    facing = normals @ (light / np.linalg.norm(light))
+    # The back, seen through holes, is darker.
+    front = normals @ towards > 0
+    shade = np.where(front, 0.55 + 0.45 * np.clip(facing, 0, 1), 0.45)
+    picture[seen] = colours * shade[face[seen], None]
+    for chain in panel["highlights"]:
+        for a, b in zip(chain, chain[1:]):
+            steps = int(np.abs(screen[a] - screen[b]).max()) + 1
+            for t in np.linspace(0, 1, 2 * steps):
+                x, y = np.round((1 - t) * screen[a] + t * screen[b]).astype(int)
+                if nearest[y, x] <= (1 - t) * depth[a] + t * depth[b] + 0.02 * size:
+                    picture[max(y - 1, 0):y + 2, max(x - 1, 0):x + 2] = (0.1, 0.1, 0.1)
+    rows = np.flatnonzero(seen.any(1))
+    picture = picture[max(rows[0] // 2 * 2 - 8, 0):rows[-1] // 2 * 2 + 10]
+    picture = picture.reshape(len(picture) // 2, 2, pixels // 2, 2, 3).mean((1, 3))
+    axes.imshow(picture, origin="lower", interpolation="none")
+    axes.set_axis_off()
+
+
+def fixed_palette():
+    """256 colours of flat pictures: the scale, flipped red, greys and the lines of histograms, each fading to white."""
+    colours = [c[:3] for c in matplotlib.colormaps["viridis"](np.linspace(0, 1, 128))]
+    colours += [(g, g, g) for g in np.linspace(0, 1, 48)]
+    lines = [matplotlib.colors.to_rgb(f"C{i}") for i in range(8)]
+    for c, steps in [(np.array(FLIPPED[:3]), 8)] + [(np.array(c), 6) for c in lines + list(CHECKER)]:
+        colours += [tuple(c + (1 - c) * t) for t in np.linspace(0, 1, steps, endpoint=False)]
+    image = Image.new("P", (1, 1))
+    image.putpalette([int(round(255 * x)) for c in colours[:256] for x in c])
+    return image
+
+
+def save(figure, path, flat):
+    """A palette PNG of at most MOST_BYTES: fewer colours (where they are not fixed), then fewer pixels, until it fits."""
+    buffer = io.BytesIO()
+    figure.savefig(buffer, format="png", dpi=DPI)
+    plt.close(figure)
+    full = Image.open(buffer).convert("RGB")
+    for scale in (1, 0.85, 0.7, 0.55, 0.4):
+        image = full if scale == 1 else full.resize([int(scale * s) for s in full.size], Image.LANCZOS)
+        for count in (256,) if flat else (256, 128):
+            packed = io.BytesIO()
+            if flat:
+                reduced = image.quantize(palette=fixed_palette(), dither=Image.Dither.NONE)
+            else:
+                reduced = image.quantize(count, dither=Image.Dither.NONE)
+            reduced.save(packed, "PNG", optimize=True)
+            if packed.tell() <= MOST_BYTES:
+                path.write_bytes(packed.getvalue())
+                return
+    raise SystemExit(f"{path} does not fit into {MOST_BYTES} bytes")
+
+
+def main():
+    source, target = Path(sys.argv[1]), Path(sys.argv[2])
+    target.mkdir(parents=True, exist_ok=True)
+    draw = {"map": draw_map, "grid": draw_grid, "histogram": draw_histogram, "curves": draw_curves, "surface": draw_surface}
+    for picture in json.loads((source / "pictures.json").read_text()):
+        panels = picture["panels"]
+        if not panels:
+            continue
+        cache = {}
+
+        def load(name):
+            if name not in cache:
+                cache[name] = read_ply(source / name)
+            return cache[name]
+
+        columns = min(picture["columns"], len(panels))
+        rows = -(-len(panels) // columns)
+        width = PANEL * columns if len(panels) > 1 else 1.5 * PANEL
+        figure, grid = plt.subplots(rows, columns, figsize=(width, PANEL * rows * 1.08), squeeze=False,
+                                    layout="constrained")
+        largest = None
+        for axes in grid.flat[len(panels):]:
+            axes.set_axis_off()
+        for axes, panel in zip(grid.flat, panels):
+            largest = draw[panel["kind"]](axes, panel, load) or largest
+            axes.set_title(panel["title"], fontsize=9)
+        if largest:
+            scale = matplotlib.cm.ScalarMappable(matplotlib.colors.Normalize(0, largest), "viridis")
+            maps = [a for a, p in zip(grid.flat, panels) if p["kind"] == "map"]
+            bar = figure.colorbar(scale, ax=maps, shrink=0.7, aspect=25, pad=0.01)
+            bar.ax.tick_params(labelsize=7)
+        save(figure, target / (picture["name"] + ".png"), all(p["kind"] != "surface" for p in panels))
+        print(picture["name"])
+
+
+if __name__ == "__main__":
+    main()

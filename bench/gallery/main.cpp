@@ -1,0 +1,105 @@
+// Solves the gallery's figures, writes their data and their sections of the page.
+//
+//     gallery DATA_FOLDER PAGE [FIGURE...]        default: all figures
+//
+// Sections of figures that are not named stay as they are. draw.py draws the pictures from DATA_FOLDER.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "gallery/gallery.h"
+
+namespace {
+
+using namespace beltrami;
+using namespace beltrami::gallery;
+
+constexpr const char* introduction =
+    "# Gallery\n\n"
+    "Figures of Weber, Myles, Zorin, *Computing extremal quasiconformal maps*, 2012, made again with beltrami by\n"
+    "`./run gallery`. Shapes that the paper does not give are made here (`bench/support/problems.h`), so its numbers\n"
+    "are for orientation. Colours show |μ|; flipped faces are red. Tables: k of the last step, the lower bound on K\n"
+    "([certificate](certificate.md)), and the statistics of |μ| over the faces, weighted by area.\n\n";
+
+std::string marker(const std::string& name) {
+    return "<!-- " + name + " -->\n";
+}
+
+/// The sections of a page by name.
+std::map<std::string, std::string> sections_of(const std::string& page) {
+    std::map<std::string, std::string> result;
+    for (const Entry& entry : figures()) {
+        const std::size_t at = page.find(marker(entry.name));
+        if (at == std::string::npos) continue;
+        const std::size_t end = page.find("<!-- ", at + 1);
+        result[entry.name] = page.substr(at, end == std::string::npos ? end : end - at);
+    }
+    return result;
+}
+
+std::string row_of(const std::vector<std::string>& cells) {
+    std::string line = "|";
+    for (const std::string& cell : cells) line += " " + cell + " |";
+    return line + "\n";
+}
+
+std::string section(const std::string& name, const Figure& figure) {
+    std::string text = marker(name) + "## " + figure.title + "\n\n*The paper:* " + figure.statement + "\n\n";
+    for (const Table& table : figure.tables) {
+        if (!table.caption.empty()) text += table.caption + ".\n\n";
+        text += row_of(table.head) + row_of(std::vector<std::string>(table.head.size(), "---"));
+        for (const auto& row : table.rows) text += row_of(row);
+        text += "\n";
+    }
+    for (const std::string& remark : figure.remarks) text += remark + "\n\n";
+    for (const Picture& picture : figure.pictures)
+        text += "![" + picture.caption + "](gallery/" + picture.name + ".png)\n\n" + picture.caption + "\n\n";
+    return text;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc < 3) {
+        fmt::print(stderr, "gallery DATA_FOLDER PAGE [FIGURE...]\n");
+        return 2;
+    }
+    const std::vector<std::string> wanted(argv + 3, argv + argc);
+    for (const std::string& name : wanted)
+        if (std::none_of(figures().begin(), figures().end(), [&](const Entry& e) { return e.name == name; })) {
+            std::string names;
+            for (const Entry& entry : figures()) names += " " + entry.name;
+            fmt::print(stderr, "there is no figure {}; there are:{}\n", name, names);
+            return 2;
+        }
+    try {
+        std::stringstream old;
+        old << std::ifstream(argv[2]).rdbuf();
+        auto sections = sections_of(old.str());
+        Output output(argv[1]);
+        nlohmann::json pictures = nlohmann::json::array();
+        for (const Entry& entry : figures()) {
+            if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), entry.name) == wanted.end()) continue;
+            fmt::print("{}\n", entry.name);
+            std::fflush(stdout);
+            const Figure figure = entry.make(output);
+            sections[entry.name] = section(entry.name, figure);
+            for (const Picture& picture : figure.pictures)
+                pictures.push_back({{"name", picture.name}, {"columns", picture.columns}, {"panels", picture.panels}});
+        }
+        std::ofstream(output.folder() / "pictures.json") << pictures.dump(1) << "\n";
+        std::ofstream page(argv[2]);
+        page << introduction;
+        for (const Entry& entry : figures())
+            if (sections.contains(entry.name)) page << sections[entry.name];
+        page.close();
+        if (!page) throw Error(Cause::unwritable, std::string("cannot write ") + argv[2]);
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "{}\n", error.what());
+        return 1;
+    }
+}

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "support/problems.h"
+
+namespace beltrami::bench {
+
+/// Why a problem's boundary values cannot be those of a one-to-one map that keeps orientation, or empty: every loop's
+/// image simple, the outer one counter-clockwise, those of holes clockwise, disjoint and side by side inside the outer.
+std::string infeasibility(const Problem& problem);
+
+/// What a piecewise linear map to the plane does to the faces of a mesh (triangles, in the plane or space).
+struct MapQuality {
+    int flipped = 0;       ///< faces whose image has no positive area
+    double max_mu = 0;     ///< largest |μ|; 1 where ∂f vanishes alone
+    double p95_mu = 0;     ///< the |μ| below which 95 % of the faces are
+    double pin_error = 0;  ///< largest distance of a prescribed vertex from its image
+};
+MapQuality map_quality(const Problem& problem, const Eigen::VectorXcd& map);
+
+}  // namespace beltrami::bench
