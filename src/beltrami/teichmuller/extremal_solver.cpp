@@ -93,6 +93,7 @@ struct ExtremalSolver::Implementation {
     CoefficientStep::Result step;
     std::vector<std::string> warnings;
     std::vector<Iteration> history;
+    std::vector<BoundaryCorner> corners;
     std::vector<LoopPath> paths;  // along which turns are counted
     bool converged = false;
     int other_factorizations = 0;  // of the chart and the finish
@@ -110,7 +111,8 @@ struct ExtremalSolver::Implementation {
         Chart chart = domain_chart(source, options.outer_loop, inside ? nullptr : &problem.solver());
         other_factorizations += chart.factorizations;
         warnings.insert(warnings.end(), chart.warnings.begin(), chart.warnings.end());
-        Singularities singularities = singularities_of(source, chart, boundary);
+        corners = find_corners(source, boundary);
+        Singularities singularities = singularities_of(source, chart, boundary, corners);
         const bool smooth = singularities.empty();
         problem.set_chart(std::move(chart), std::move(singularities), options.cluster_count);
         if (source.topology.boundary_loops.size() > 1)

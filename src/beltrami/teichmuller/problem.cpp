@@ -13,6 +13,10 @@ namespace {
 /// Around a hole, edges for each power of r/(z − c).
 constexpr int kEdgesPerPower = 6;
 constexpr int kLeastPower = 3, kMostPower = 16;
+/// Poles cluster towards a corner from this far, on a hole as part of its radius, to this part of an edge.
+constexpr double kReach = 1.0, kHoleReach = 0.8, kFinest = 0.25;
+/// The most significant corners count.
+constexpr std::size_t kMostCorners = 48;
 
 /// See ExtremalProblem::phase.
 double phase_of(const Chart& chart, const BoundaryCondition& boundary) {
@@ -52,7 +56,8 @@ std::unique_ptr<DifferentialSpace> ExtremalProblem::starting_space(int largest_d
     return RationalSpace::starting_space(singularities_, std::move(quadrature), largest_degree);
 }
 
-Singularities singularities_of(const Surface& source, const Chart& chart, const BoundaryCondition& boundary) {
+Singularities singularities_of(const Surface& source, const Chart& chart, const BoundaryCondition& boundary,
+                               const std::vector<BoundaryCorner>& corners) {
     Singularities result;
     for (const Chart::Hole& hole : chart.holes) {
         const int edges = static_cast<int>(source.topology.boundary_loops[hole.loop].size());
@@ -60,6 +65,19 @@ Singularities singularities_of(const Surface& source, const Chart& chart, const 
     }
     for (const int v : boundary.vertices)
         if (!source.topology.on_boundary[v]) result.pins.push_back(chart.vertices[v]);
+    for (std::size_t i = 0; i < std::min(corners.size(), kMostCorners); ++i) {
+        const auto& loop = source.topology.boundary_loops[corners[i].loop];
+        const auto n = loop.size(), at = static_cast<std::size_t>(corners[i].position);
+        const Complex vertex = chart.vertices[loop[at]], next = chart.vertices[loop[(at + 1) % n]],
+                      last = chart.vertices[loop[(at + n - 1) % n]];
+        const Complex along = next - last;
+        if (!(std::abs(along) > 0)) continue;
+        double reach = kReach;
+        for (const Chart::Hole& hole : chart.holes)
+            if (hole.loop == corners[i].loop) reach = kHoleReach * hole.radius;
+        const double edge = 0.5 * (std::abs(next - vertex) + std::abs(vertex - last));
+        result.corners.push_back({vertex, Complex(0, -1) * along / std::abs(along), reach, kFinest * edge});
+    }
     return result;
 }
 

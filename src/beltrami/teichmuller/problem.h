@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 
+#include <beltrami/maps/boundary_corners.h>
 #include <beltrami/teichmuller/hamilton.h>
 
 namespace beltrami {
@@ -45,7 +46,8 @@ class ExtremalProblem {
     std::optional<CoefficientStep> coefficient_step_;
 };
 
-/// What the chart's holes, the constraints inside and the corners allow φ to have.
-Singularities singularities_of(const Surface& source, const Chart& chart, const BoundaryCondition& boundary);
+/// What the chart's holes, the constraints inside and the corners of domain and boundary values allow φ to have.
+Singularities singularities_of(const Surface& source, const Chart& chart, const BoundaryCondition& boundary,
+                               const std::vector<BoundaryCorner>& corners);
 
 }  // namespace beltrami
