@@ -17,7 +17,10 @@
 #include <beltrami/locate/planar_locator.h>
 #include <beltrami/maps/beltrami_solver.h>
 #include <beltrami/maps/composition.h>
+#include <beltrami/maps/continuation.h>
 #include <beltrami/maps/fold_free.h>
+#include <beltrami/maps/homotopy.h>
+#include <beltrami/maps/twist.h>
 #include <beltrami/mesh/cut.h>
 #include <beltrami/mesh/diagnosis.h>
 #include <beltrami/mesh/error.h>

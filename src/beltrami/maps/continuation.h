@@ -61,6 +61,21 @@ class Continuation {
     double diameter_ = 0;  ///< of the prescribed outer loop
 };
 
+/// A map that was led along a continuation.
+struct FollowedMap {
+    Eigen::VectorXcd map;  ///< #V, without folds, with the prescribed boundary values
+    int steps = 0;
+    int repaired_steps = 0;  ///< steps after which folds had to be opened (fold_free.h)
+};
+
+/// Leads the domain along a continuation: every step solves with the coefficient of the last map and the next boundary
+/// values, which is a harmonic map of the last image and so keeps the class while it does not fold. Steps that fold are
+/// halved; below @p smallest_step the folds, few by then, are opened.
+/// @param largest_step, smallest_step parts of one straight piece
+/// @throw Error not_solved if folds do not open, with the step; what Continuation::at throws
+FollowedMap follow(const Surface& source, const Continuation& continuation, double largest_step = 0.125,
+                   double smallest_step = 0.0625);
+
 /// The boundary values at equal steps, the last of which are the prescribed ones. Where a map folds on the way, take
 /// more.
 /// @param substeps steps in each straight piece, at least 1
