@@ -16,7 +16,7 @@ namespace beltrami {
 /// own μ. Samples that the chart excludes do not enter and keep their own.
 /// @param phi #S in the samples' frames
 /// @param map #V
-/// @return #S in the samples' frames; estimates, not the coefficient of any map
+/// @return #S in the samples' frames, meant at the centroids; estimates, not the coefficient of any map
 Eigen::VectorXcd averaged_coefficient(const Surface& source, const Chart& chart, const Eigen::VectorXcd& phi,
                                       const Eigen::VectorXcd& map);
 
