@@ -18,9 +18,9 @@ struct Waypoint {
 /// describes; with two or more holes that includes how the holes braid around each other.
 ///
 /// At t = 0 the loops are those of the domain, moved by the similarity that fits its outer loop to the prescribed one
-/// best, at t = 1 the prescribed ones. Between them a loop is C + (z − c)(s − c')/(z − c) to the power t in the
-/// logarithm's continuous branch: it turns and grows evenly and does not collapse. Loops that come near each other or
-/// the outer one shrink for a while.
+/// best, at t = 1 the prescribed ones. Between them the logarithms of a loop's points about its centre are
+/// interpolated, in the branch of least turning: it turns and grows evenly and does not collapse. Loops that come near
+/// each other or the outer one shrink for a while.
 class Continuation {
   public:
     /// @param positions #V places in the plane in which the domain is not folded: a chart's, or the mesh's own
