@@ -19,8 +19,11 @@
 #include <beltrami/maps/boundary_corners.h>
 #include <beltrami/maps/boundary_feasibility.h>
 #include <beltrami/maps/composition.h>
+#include <beltrami/maps/continuation.h>
 #include <beltrami/maps/fold_free.h>
+#include <beltrami/maps/homotopy.h>
 #include <beltrami/maps/prescribed_split.h>
+#include <beltrami/maps/twist.h>
 #include <beltrami/mesh/cut.h>
 #include <beltrami/mesh/diagnosis.h>
 #include <beltrami/mesh/error.h>

@@ -1,15 +1,19 @@
 #include <beltrami/maps/continuation.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <optional>
 #include <string>
 
+#include <beltrami/maps/beltrami_solver.h>
+#include <beltrami/maps/fold_free.h>
 #include <beltrami/maps/homotopy.h>
 #include <beltrami/mesh/error.h>
 #include <beltrami/mesh/inside_polygon.h>
+#include <beltrami/operators/distortion.h>
 
 namespace beltrami {
 
@@ -20,6 +24,9 @@ constexpr double kTurn = 2 * std::numbers::pi;
 constexpr double kMeeting = 1e-3;
 /// A loop is not shrunk below this part of its size.
 constexpr double kSmallest = 0.02;
+/// The coefficient of the last map is held below this, as a solver needs it; lower and nearly flat faces lose the
+/// class.
+constexpr double kLargestCoefficient = 0.99;
 /// The gap that is kept, as part of the distance of two centres (or of a centre from the outer loop): narrower gaps
 /// than this that the ends of the way have themselves are kept there.
 constexpr double kGap = 0.1;
@@ -253,6 +260,44 @@ BoundaryCondition Continuation::at(double t) const {
     for (int l = 0; l < count; ++l) {
         const std::vector<Complex> loop = placed(shapes[l], centre(l, t), sizes[l]);
         for (std::size_t i = 0; i < loop.size(); ++i) result.pin(vertices_[l][i], loop[i]);
+    }
+    return result;
+}
+
+FollowedMap follow(const Surface& source, const Continuation& continuation, double largest_step, double smallest_step) {
+    FollowedMap result;
+    result.map = continuation.start();
+    const std::vector<Freedom> fixed = freedoms(continuation.at(0), source);
+    BeltramiSolver solver(source, fixed, static_cast<int>(continuation.pieces() / largest_step));
+    double t = 0, step = largest_step;
+    while (t < 1) {
+        // Rounding must leave no last step of no length.
+        const double next = t + step / continuation.pieces() > 1 - 1e-9 ? 1.0 : t + step / continuation.pieces();
+        Eigen::VectorXcd nu = beltrami_coefficient(source.operators, result.map);
+        for (Complex& value : nu) value *= std::min(1.0, kLargestCoefficient / std::max(std::abs(value), 1e-300));
+        solver.factorize(nu);
+        const BoundaryCondition boundary = continuation.at(next);
+        Eigen::VectorXcd map = solver.solve(prescribed_values(boundary, source));
+        if (!distortion(source.operators, map).flipped.empty()) {
+            if (step > smallest_step) {
+                step = std::max(0.5 * step, smallest_step);
+                continue;
+            }
+            FoldFreeOptions options;
+            options.max_iterations = 30;  // folds open in few steps or not at all; how well it ends does not matter
+            FoldFreeMap opened = fold_free_map(source, fixed, Eigen::VectorXcd::Zero(nu.size()), map, options);
+            if (!opened.fold_free)
+                throw Error(Cause::not_solved,
+                            "the map folds at step " + std::to_string(next * continuation.pieces()) + " of " +
+                                std::to_string(continuation.pieces()) + " and the folds do not open",
+                            "refine the mesh around the holes, or give waypoints that keep them apart");
+            map = std::move(opened.map);
+            ++result.repaired_steps;
+        }
+        result.map = std::move(map);
+        ++result.steps;
+        t = next;
+        step = std::min(1.5 * step, largest_step);
     }
     return result;
 }

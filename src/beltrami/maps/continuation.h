@@ -18,9 +18,9 @@ struct Waypoint {
 /// describes; with two or more holes that includes how the holes braid around each other.
 ///
 /// At t = 0 the loops are those of the domain, moved by the similarity that fits its outer loop to the prescribed one
-/// best, at t = 1 the prescribed ones. Between them a loop is C + (z − c)(s − c')/(z − c) to the power t in the
-/// logarithm's continuous branch: it turns and grows evenly and does not collapse. Loops that come near each other or
-/// the outer one shrink for a while.
+/// best, at t = 1 the prescribed ones. Between them the logarithms of a loop's points about its centre are
+/// interpolated, in the branch of least turning: it turns and grows evenly and does not collapse. Loops that come near
+/// each other or the outer one shrink for a while.
 class Continuation {
   public:
     /// @param positions #V places in the plane in which the domain is not folded: a chart's, or the mesh's own
@@ -60,6 +60,21 @@ class Continuation {
     std::vector<Loop> loops_;
     double diameter_ = 0;  ///< of the prescribed outer loop
 };
+
+/// A map that was led along a continuation.
+struct FollowedMap {
+    Eigen::VectorXcd map;  ///< #V, without folds, with the prescribed boundary values
+    int steps = 0;
+    int repaired_steps = 0;  ///< steps after which folds had to be opened (fold_free.h)
+};
+
+/// Leads the domain along a continuation: every step solves with the coefficient of the last map and the next boundary
+/// values, which is a harmonic map of the last image and so keeps the class while it does not fold. Steps that fold are
+/// halved; below @p smallest_step the folds, few by then, are opened.
+/// @param largest_step, smallest_step parts of one straight piece
+/// @throw Error not_solved if folds do not open, with the step; what Continuation::at throws
+FollowedMap follow(const Surface& source, const Continuation& continuation, double largest_step = 0.125,
+                   double smallest_step = 0.0625);
 
 /// The boundary values at equal steps, the last of which are the prescribed ones. Where a map folds on the way, take
 /// more.

@@ -202,15 +202,18 @@ StartInClass start_in_class(const Surface& source, const Eigen::VectorXcd& posit
                            [](const HoleTurns& hole) { return hole.meaningful; });
     };
     result.map = harmonic_map(source, boundary);
-    const int folds = static_cast<int>(distortion(source.operators, result.map).flipped.size());
-    if (has_wanted() && (folds == 0 || paths.size() > 1)) return result;
+    const std::size_t folds = distortion(source.operators, result.map).flipped.size();
     if (paths.size() == 1) {
-        result.map = logarithmic_map(source, positions, outer_loop, boundary, wanted[paths[0].loop]);
+        const bool harmonic_fits = has_wanted();
+        Eigen::VectorXcd logarithmic = logarithmic_map(source, positions, outer_loop, boundary, wanted[paths[0].loop]);
+        if (harmonic_fits && distortion(source.operators, logarithmic).flipped.size() > folds) return result;
+        result.map = std::move(logarithmic);
         result.homotopy = homotopy_class(source, paths, result.map, outer_loop);
         return result;
     }
+    if (has_wanted()) return result;
     if (!meaningful()) {
-        result.repaired = folds;
+        result.repaired = static_cast<int>(folds);
         const FoldFreeMap opened =
             fold_free_map(source, freedoms(boundary, source), Eigen::VectorXcd::Zero(source.operators.sample_count()),
                           result.map, {});

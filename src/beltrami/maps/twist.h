@@ -49,9 +49,10 @@ struct StartInClass {
     int repaired = 0;        ///< flipped faces of the harmonic map that had to be opened before its turns could be read
 };
 
-/// A start with the wanted turns at every hole: the harmonic map where it has them already (on a ring: and no folds),
-/// else logarithmic_map on a ring, twisted_map of the harmonic map (folds at the paths removed first, fold_free.h)
-/// where there are more holes.
+/// A start with the wanted turns at every hole. On a ring logarithmic_map (the harmonic map where that has the turns
+/// and fewer folds): a harmonic map folds where the hole grows and is squeezed without bound where it shrinks. With
+/// more holes the harmonic map where it has the turns, else its folds are removed (fold_free.h) and twisted_map
+/// applied.
 /// @param turns one number per boundary loop, that of the outer loop is not used; empty: none anywhere
 /// @throw as the above; also not_solved if the folds of the harmonic map do not open
 StartInClass start_in_class(const Surface& source, const Eigen::VectorXcd& positions, int outer_loop,

@@ -5,9 +5,7 @@
 #include <numbers>
 
 #include <beltrami/generate/planar_domains.h>
-#include <beltrami/maps/beltrami_solver.h>
 #include <beltrami/maps/continuation.h>
-#include <beltrami/maps/fold_free.h>
 #include <beltrami/maps/homotopy.h>
 #include <beltrami/mesh/error.h>
 #include <beltrami/mesh/inside_polygon.h>
@@ -31,8 +29,8 @@ struct TwoHoles {
           z(test::complex_positions(mesh)) {}
     static DomainOptions options() {
         DomainOptions options;
-        options.edge_length = 0.08;
-        options.hole_edge_length = 0.03;
+        options.edge_length = 0.1;
+        options.hole_edge_length = 0.035;
         return options;
     }
     int loop_at(int side) const { return z[surface.topology.boundary_loops[1][0]].real() * side > 0 ? 1 : 2; }
@@ -50,26 +48,6 @@ std::vector<Complex> images_of(const BoundaryCondition& boundary, const std::vec
         result.push_back(boundary.images[std::find(boundary.vertices.begin(), boundary.vertices.end(), v) -
                                          boundary.vertices.begin()]);
     return result;
-}
-
-/// Follows the way: each map has the coefficient of the last one and the next boundary values. Folds are opened at
-/// once; where there are many they can open into another class.
-Eigen::VectorXcd follow(const TwoHoles& domain, const std::vector<BoundaryCondition>& steps) {
-    Eigen::VectorXcd f = domain.z;
-    BeltramiSolver solver(domain.surface, freedoms(steps[0], domain.surface), static_cast<int>(steps.size()));
-    for (const BoundaryCondition& step : steps) {
-        Eigen::VectorXcd nu = beltrami_coefficient(domain.surface.operators, f);
-        for (Eigen::Index s = 0; s < nu.size(); ++s)
-            if (std::abs(nu[s]) > 0.99) nu[s] *= 0.99 / std::abs(nu[s]);
-        solver.factorize(nu);
-        f = solver.solve(prescribed_values(step, domain.surface));
-        if (distortion(domain.surface.operators, f).flipped.empty()) continue;
-        FoldFreeOptions options;
-        options.max_iterations = 20;  // opens the folds; how well it ends does not matter
-        f = fold_free_map(domain.surface, freedoms(step, domain.surface), Eigen::VectorXcd::Zero(nu.size()), f, options)
-                .map;
-    }
-    return f;
 }
 
 TEST(Continuation, EndsWithWhatIsPrescribedAndStartsWithTheDomain) {
@@ -145,10 +123,11 @@ TEST(Continuation, TheSideOfTheWaypointsIsTheClass) {
     double angle[2];
     for (const int side : {0, 1}) {
         const double y = side ? 0.4 : -0.4;
-        const auto steps =
-            continuation_steps(domain.surface, domain.z, 0, exchanged, {{1, left, {0, y}}, {1, right, {0, -y}}}, 10);
-        ASSERT_EQ(steps.size(), 20u);
-        const Eigen::VectorXcd f = follow(domain, steps);
+        const std::vector<Waypoint> waypoints{{1, left, {0, y}}, {1, right, {0, -y}}};
+        const FollowedMap followed =
+            follow(domain.surface, Continuation(domain.surface, domain.z, 0, exchanged, waypoints), 0.125, 0.125);
+        const Eigen::VectorXcd& f = followed.map;
+        EXPECT_GE(followed.steps, 16);
         EXPECT_TRUE(distortion(domain.surface.operators, f).flipped.empty());
         for (std::size_t i = 0; i < exchanged.vertices.size(); ++i)
             EXPECT_EQ(f[exchanged.vertices[i]], exchanged.images[i]);
@@ -159,6 +138,12 @@ TEST(Continuation, TheSideOfTheWaypointsIsTheClass) {
                                     point_inside(loop_images(domain.surface.topology.boundary_loops[right], f)));
     }
     EXPECT_NEAR(std::abs(angle[1] - angle[0]), kTurn, 1e-9);
+
+    const auto steps =
+        continuation_steps(domain.surface, domain.z, 0, exchanged, {{1, left, {0, 0.4}}, {1, right, {0, -0.4}}}, 10);
+    ASSERT_EQ(steps.size(), 20u);
+    EXPECT_EQ(steps.back().images, exchanged.images);
+    EXPECT_THROW(continuation_steps(domain.surface, domain.z, 0, exchanged, {}, 0), Error);
 }
 
 TEST(Continuation, ALoopTurnsTheShorterWayAndNeverCollapses) {
