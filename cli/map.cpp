@@ -36,7 +36,7 @@ class Map final : public Command {
         output_.add_to(*app);
         app->add_option(
                "--method", method_,
-               "extremal needs every boundary vertex prescribed; lscm, arap and mips can leave the boundary free")
+               "lscm, arap and mips can leave the boundary free; the others need every boundary vertex prescribed")
             ->check(CLI::IsMember({"extremal", "harmonic", "lscm", "arap", "mips", "alternation", "qc"}))
             ->capture_default_str();
         boundary_.add_to(*app);

@@ -296,14 +296,14 @@ class Map(Command):
     def test_extremal_map_of_a_bump(self):
         source = self.bump_file()
         record = self.record("map", source, "-o", self.path("out.obj"), "--boundary", "disk:0.6", "--report", self.path("out.html"),
-                             "--compare", "harmonic,arap,mips,lscm")
+                             "--compare", "harmonic,arap,mips,lscm,alternation,qc")
         m = record["map"]
         self.assertEqual(m["flipped"], 0)
         self.assertLessEqual(m["K_lower"], m["K"])
         self.assertLessEqual(m["K"], m["K_max"])
         self.assertEqual(record["solve"]["termination"], "converged")
         self.assertGreater(record["solve"]["seconds"]["harmonic"], 0)
-        self.assertEqual([c["method"] for c in record["comparison"]], ["harmonic", "arap", "mips", "lscm"])
+        self.assertEqual([c["method"] for c in record["comparison"]], ["harmonic", "arap", "mips", "lscm", "alternation", "qc"])
         for other in record["comparison"][:3]:
             self.assertLess(m["mu"]["std"], other["map"]["mu"]["std"], other["method"])
             self.assertNotIn("k", other["map"])
@@ -398,7 +398,7 @@ class Map(Command):
         write_obj(self.path("two.obj"), np.vstack([points, points + [3, 0, 0]]), np.vstack([faces, faces + len(points)]))
         write_obj(self.path("closed.obj"), np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]),
                   np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]))
-        for method in ("harmonic", "lscm", "arap", "mips"):
+        for method in ("harmonic", "lscm", "arap", "mips", "alternation", "qc"):
             failed = self.run_command("map", self.path("two.obj"), "-o", self.path("o.obj"), "--method", method, code=4)
             self.assertIn("the mesh has 2 components", failed.stderr)
             failed = self.run_command("map", self.path("closed.obj"), "-o", self.path("o.obj"), "--method", method, code=4)
@@ -431,7 +431,7 @@ class Map(Command):
 
     def test_every_method_writes_every_format(self):
         source = self.bump_file(8)
-        for method in ("extremal", "harmonic", "lscm", "arap", "mips"):
+        for method in ("extremal", "harmonic", "lscm", "arap", "mips", "alternation", "qc"):
             for extension in ("obj", "ply", "off"):
                 self.run_command("map", source, "-o", self.path(f"out.{extension}"), "--method", method, "--boundary", "disk:0.3", "--quiet")
         self.run_command("map", source, "-o", self.path("positions.obj"), "--boundary", "disk:0.3", "--as-positions")

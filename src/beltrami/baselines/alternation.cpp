@@ -15,6 +15,8 @@ using Form = detail::HarmonicForms::Form;
 
 /// Of the differential's lagged weights 1/|φ|: the least |φ|, relative to its maximum.
 constexpr double kLeastPhi = 1e-4;
+/// And of those weights, which vanish where ∂f does.
+constexpr double kLeastWeight = 1e-12;
 /// Steps of the differential between two of the map.
 constexpr int kMostInnerSteps = 10;
 
@@ -100,7 +102,8 @@ BaselineMap alternation_baseline(const Surface& source, const BoundaryCondition&
     double k = 0;
     // Minimises the energy over φ for the weights 1/size and a k. The print's h-step, eq. (11).
     const auto quadratic_step = [&](const Energy& energy, const Eigen::VectorXd& size, double for_k) {
-        const Eigen::VectorXd weights = for_k * for_k * energy.d_z.cwiseQuotient(size.cwiseAbs2());
+        Eigen::VectorXd weights = for_k * for_k * energy.d_z.cwiseQuotient(size.cwiseAbs2());
+        weights = weights.cwiseMax(kLeastWeight * weights.maxCoeff());
         const Eigen::VectorXcd pull = for_k * energy.product.conjugate().cwiseQuotient(size.cast<Complex>());
         return forms.fit(weights, pull, form);
     };

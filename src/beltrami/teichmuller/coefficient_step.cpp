@@ -1,14 +1,22 @@
 #include <beltrami/teichmuller/coefficient_step.h>
 
+#include <array>
 #include <cmath>
+
+#include <beltrami/mesh/parallel.h>
 
 namespace beltrami {
 
 namespace {
 
 constexpr double kClip = 0.95;
-/// δ of the rounded |φ|, in edge lengths of a quadrature cell: about |φ| at a fifth of a cell from a simple zero.
-constexpr double kRounding = 0.2;
+/// δ of the rounded |φ| as part of its mean, per edge length of a sample in a domain of diameter 2: about |φ| at a
+/// fraction of an edge from a simple zero.
+constexpr double kRounding = 0.4;
+/// Without a start, Newton's method begins with these values of δ.
+constexpr std::array kColdRoundings{0.3, 0.1, 0.03};
+/// … and ends each of them at steps of this length.
+constexpr double kColdStep = 0.05;
 
 Complex clipped(Complex mu) {
     const double size = std::abs(mu);
@@ -27,8 +35,7 @@ CoefficientStep::CoefficientStep(const Surface& source, const Chart& chart, cons
       clusters_(cluster_samples(source.operators, chart, singularities, phase, cluster_count)) {
     double area = 0;
     for (const double a : clusters_.squared) area += a;
-    problem_.rounding = kRounding * std::sqrt(area / static_cast<double>(clusters_.points.positions.size()));
-    fine_rounding_ = kRounding * std::sqrt(area / static_cast<double>(source.operators.sample_count()));
+    edge_ = std::sqrt(area / static_cast<double>(source.operators.sample_count()));
 }
 
 void CoefficientStep::set_space(const DifferentialSpace& space) {
@@ -37,56 +44,77 @@ void CoefficientStep::set_space(const DifferentialSpace& space) {
     problem_.complex_coefficients = space.complex_coefficients();
 }
 
-CoefficientStep::Result CoefficientStep::solve(const Eigen::VectorXcd& mu, const Eigen::VectorXcd& start,
-                                               const Eigen::VectorXcd& known_phi) {
+namespace {
+
+/// N on every sample of the mesh.
+class SampleNorm final : public DualNorm {
+  public:
+    /// @param weights #S A a, 0 where the chart excludes the sample
+    SampleNorm(const SampledSpace& space, const Chart& chart, const Eigen::VectorXd& weights)
+        : space_(space), chart_(chart), weights_(weights) {}
+    Eigen::VectorXcd values(const Eigen::VectorXcd& c) const override { return space_.combination(c); }
+    double norm(const Eigen::VectorXcd& phi, double delta) const override {
+        return parallel_sum<double>(static_cast<int>(phi.size()), 0.0, [&](int first, int last) {
+            double sum = 0;
+            for (int s = first; s < last; ++s) sum += weights_[s] * std::sqrt(square(phi[s], s, delta));
+            return sum;
+        });
+    }
+    Eigen::VectorXcd gradient(const Eigen::VectorXcd& phi, double delta) const override {
+        Eigen::MatrixXcd direction(phi.size(), 1);
+        parallel_for(0, static_cast<int>(phi.size()), [&](int first, int last) {
+            for (int s = first; s < last; ++s) {
+                const double of = square(phi[s], s, delta);
+                direction(s, 0) = of > 0 ? weights_[s] / std::sqrt(of) * std::conj(phi[s]) : 0.0;
+            }
+        });
+        return space_.pair(direction);
+    }
+
+  private:
+    double square(Complex phi, int s, double delta) const {
+        const double rounded = delta * std::norm(chart_.derivatives[s]);
+        return std::norm(phi) + rounded * rounded;
+    }
+    const SampledSpace& space_;
+    const Chart& chart_;
+    const Eigen::VectorXd& weights_;
+};
+
+}  // namespace
+
+CoefficientStep::Result CoefficientStep::solve(const Eigen::VectorXcd& mu, const Eigen::VectorXcd& start, double step) {
     const int samples = source_.operators.sample_count();
-    const int size = static_cast<int>(problem_.basis.cols());
-    Eigen::MatrixXcd weights = Eigen::MatrixXcd::Zero(samples, 2);  // A b, and A a conj(φ)/|φ| at the start
-    Eigen::VectorXd norm_weight = Eigen::VectorXd::Zero(samples);   // A a
+    Eigen::MatrixXcd pairing_weight = Eigen::MatrixXcd::Zero(samples, 1);  // A b
+    Eigen::VectorXd norm_weight = Eigen::VectorXd::Zero(samples);          // A a
     problem_.weights = Eigen::VectorXd::Zero(problem_.basis.rows());
     for (int s = 0; s < samples; ++s) {
         if (chart_.excluded[s]) continue;
         const Complex m = clipped(mu[s]);
         const double square = std::norm(m), area = source_.operators.weights[s];
-        weights(s, 0) = area / (1 - square) * m;
+        pairing_weight(s, 0) = area / (1 - square) * m;
         norm_weight[s] = area * (1 + square) / (1 - square);
         problem_.weights[clusters_.cluster[s]] += clusters_.squared[s] * (1 + square) / (1 - square);
     }
-    const auto norm_of = [&](const Eigen::VectorXcd& phi) {
-        double norm = 0;
-        for (int s = 0; s < samples; ++s) norm += norm_weight[s] * std::sqrt(std::norm(phi[s]));
-        return norm;
-    };
-
+    problem_.pairing = sampled_.pair(pairing_weight);
+    const SampleNorm norm(sampled_, chart_, norm_weight);
     Eigen::VectorXcd at = start;
-    if (at.size() == 0) {  // a first answer from the clusters alone, about which the norm is then corrected
-        problem_.pairing = sampled_.pair(weights.col(0));
-        problem_.correction.resize(0);
-        at = solve_dual(problem_, {}).coefficients;
-    }
-    at.conservativeResizeLike(Eigen::VectorXcd::Zero(size));
-    const Eigen::VectorXcd phi = known_phi.size() ? known_phi : sampled_.combination(at);
-    const double length_at = at.norm(), delta = fine_rounding_ * length_at;
-    for (int s = 0; s < samples; ++s) {
-        if (!(norm_weight[s] > 0)) continue;
-        const double rounded = delta * std::norm(chart_.derivatives[s]), square = std::norm(phi[s]) + rounded * rounded;
-        if (square > 0) weights(s, 1) = norm_weight[s] / std::sqrt(square) * std::conj(phi[s]);
-    }
-    const Eigen::MatrixXcd sums = sampled_.pair(weights);
-    problem_.pairing = sums.col(0);
-    problem_.correction.resize(0);
-    if (length_at > 0)
-        problem_.correction = sums.col(1) - dual_gradient(problem_.basis, problem_.weights, problem_.basis * at,
-                                                          problem_.rounding * length_at);
-    const DualSolution dual = solve_dual(problem_, at);
+    if (at.size() == 0)
+        for (const double rounding : kColdRoundings) {
+            problem_.rounding = rounding;
+            at = solve_dual(problem_, at, {.step = kColdStep, .norm = &norm}).coefficients;
+        }
+    problem_.rounding = kRounding * edge_;
+    const DualSolution dual = solve_dual(problem_, at, {.step = step, .norm = &norm});
 
     Result result;
     result.converged = dual.converged;
+    result.newton_steps = dual.newton_steps;
     const double length = dual.coefficients.norm();
     result.direction = length > 0 ? Eigen::VectorXcd(dual.coefficients / length) : dual.coefficients;
-    result.phi = sampled_.combination(result.direction);
-    const double norm = norm_of(result.phi);
-    result.k = norm > 0 ? dilatation_of_pairing(2 * dual.pairing / length / norm) : 0.0;
+    result.phi = length > 0 ? Eigen::VectorXcd(dual.phi / length) : dual.phi;
+    const double size = norm.norm(result.phi, 0);
+    result.k = size > 0 ? dilatation_of_pairing(2 * dual.pairing / length / size) : 0.0;
     return result;
 }
 

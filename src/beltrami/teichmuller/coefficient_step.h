@@ -5,14 +5,15 @@
 
 namespace beltrami {
 
-/// The c-step on a mesh: from μ of a map to φ and k. Pairings run over every sample, the norm over clusters and is
-/// corrected to first order, k is summed over every sample again.
+/// The c-step on a mesh: from μ of a map to φ and k. Pairings, the norm and its gradient run over every sample; only
+/// the Hessian of Newton's method is summed over clusters.
 class CoefficientStep {
   public:
     struct Result {
         Eigen::VectorXcd direction;  ///< coefficients of φ, of length 1; 0 if nothing pairs with μ
         Eigen::VectorXcd phi;        ///< #S values of φ for these coefficients
         double k = 0;
+        int newton_steps = 0;
         bool converged = false;  ///< of the convex problem
     };
 
@@ -32,8 +33,8 @@ class CoefficientStep {
 
     /// @param mu    #S coefficients of the map; those of flipped or nearly flipped samples are held at |μ| = 0.95
     /// @param start direction to start from, padded by zeros; empty at the very beginning
-    /// @param phi   values(start), if they are known
-    Result solve(const Eigen::VectorXcd& mu, const Eigen::VectorXcd& start, const Eigen::VectorXcd& phi = {});
+    /// @param step  length of a Newton step, as part of the whole, at which c is good enough
+    Result solve(const Eigen::VectorXcd& mu, const Eigen::VectorXcd& start, double step = 0);
 
   private:
     const Surface& source_;
@@ -41,7 +42,7 @@ class CoefficientStep {
     SampledSpace sampled_;
     SampleClusters clusters_;
     DualProblem problem_;
-    double fine_rounding_ = 0;  ///< as DualProblem::rounding, for single samples in the canonical domain
+    double edge_ = 0;  ///< of the mean sample in the canonical domain
 };
 
 }  // namespace beltrami

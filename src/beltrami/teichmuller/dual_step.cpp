@@ -68,13 +68,69 @@ double dilatation_of_pairing(double S) {
     return S / (1 + std::sqrt(1 - S * S));
 }
 
-DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& start, int max_newton_steps) {
+namespace {
+
+/// N on the points of the problem.
+class OwnNorm final : public DualNorm {
+  public:
+    explicit OwnNorm(const DualProblem& problem) : problem_(problem) {}
+    Eigen::VectorXcd values(const Eigen::VectorXcd& c) const override { return problem_.basis * c; }
+    double norm(const Eigen::VectorXcd& phi, double delta) const override {
+        return problem_.weights.dot(sizes_of(phi, delta));
+    }
+    Eigen::VectorXcd gradient(const Eigen::VectorXcd& phi, double delta) const override {
+        return dual_gradient(problem_.basis, problem_.weights, phi, delta);
+    }
+
+  private:
+    const DualProblem& problem_;
+};
+
+/// The Hessian Σ w/s (Im(eφ_i) Im(eφ_j) + (δ/s)² Re(eφ_i) Re(eφ_j)) with s = √(|φ|²+δ²), e = conj(φ)/|φ|, in the lower
+/// triangle: a product of scaled rows. The second kind of row matters only near zeros of φ.
+Eigen::MatrixXd dual_hessian(const DualProblem& problem, const RealView& view, const Eigen::VectorXcd& phi,
+                             double delta) {
     const Eigen::Index m = problem.basis.cols(), points = problem.basis.rows();
+    Eigen::VectorXd sizes = sizes_of(phi, delta);
+    sizes = sizes.cwiseMax(kFloor * sizes.maxCoeff());
+    std::vector<Eigen::Index> near_zeros;
+    for (Eigen::Index i = 0; i < points; ++i)
+        if (delta * delta > kNearZero * sizes[i] * sizes[i]) near_zeros.push_back(i);
+    Eigen::VectorXcd e(points);
+    for (Eigen::Index i = 0; i < points; ++i) {
+        const double size = std::sqrt(std::norm(phi[i]));
+        e[i] = size > 0 ? std::conj(phi[i]) / size : 1.0;
+    }
+    e = e.cwiseProduct(problem.weights.cwiseQuotient(sizes).cwiseSqrt().cast<Complex>());
+    Eigen::MatrixXd rows(points + static_cast<Eigen::Index>(near_zeros.size()), view.complex ? 2 * m : m);
+    for (Eigen::Index j = 0; j < m; ++j) {
+        const Eigen::VectorXcd column = e.cwiseProduct(problem.basis.col(j));
+        rows.col(j).head(points) = column.imag();
+        if (view.complex) rows.col(m + j).head(points) = column.real();  // of iφ_j
+        for (std::size_t i = 0; i < near_zeros.size(); ++i) {
+            const auto row = points + static_cast<Eigen::Index>(i);
+            const double ratio = delta / sizes[near_zeros[i]];
+            rows(row, j) = ratio * column[near_zeros[i]].real();
+            if (view.complex) rows(row, m + j) = -ratio * column[near_zeros[i]].imag();
+        }
+    }
+    return gram_lower(rows);
+}
+
+}  // namespace
+
+DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& start, const DualOptions& options) {
+    const Eigen::Index m = problem.basis.cols();
     const RealView view{problem.complex_coefficients};
+    const OwnNorm own(problem);
+    const DualNorm& fine = options.norm ? *options.norm : own;
     const Eigen::VectorXd p = view.covector(problem.pairing);
     DualSolution solution;
     solution.coefficients = Eigen::VectorXcd::Zero(m);
-    if (!(p.squaredNorm() > 0)) return solution;
+    if (!(p.squaredNorm() > 0)) {
+        solution.phi = fine.values(solution.coefficients);
+        return solution;
+    }
 
     Eigen::VectorXcd c = Eigen::VectorXcd::Zero(m);
     if (start.size() > 0 && start.size() <= m) c.head(start.size()) = start;
@@ -84,44 +140,13 @@ DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& star
         along = p.squaredNorm();
     }
     Eigen::VectorXd x = view.pack(c) / along;
-
-    const Eigen::VectorXd q =
-        problem.correction.size() ? view.covector(problem.correction) : Eigen::VectorXd::Zero(x.size());
-    const double delta = problem.rounding * x.norm();
-    const auto norm_of = [&](const Eigen::VectorXcd& phi, const Eigen::VectorXd& at) {
-        return problem.weights.dot(sizes_of(phi, delta)) + q.dot(at);
-    };
-    Eigen::VectorXcd phi = problem.basis * view.unpack(x);
-    double norm = norm_of(phi, x);
-    for (; solution.newton_steps < max_newton_steps; ++solution.newton_steps) {
-        Eigen::VectorXd sizes = sizes_of(phi, delta);
-        sizes = sizes.cwiseMax(kFloor * sizes.maxCoeff());
-        const Eigen::VectorXd gradient = view.covector(dual_gradient(problem.basis, problem.weights, phi, delta)) + q;
-
-        // Hessian Σ w/s (Im(eφ_i) Im(eφ_j) + (δ/s)² Re(eφ_i) Re(eφ_j)) with s = √(|φ|²+δ²), e = conj(φ)/|φ|: a product
-        // of scaled rows. The second kind of row matters only near zeros of φ.
-        std::vector<Eigen::Index> near_zeros;
-        for (Eigen::Index i = 0; i < points; ++i)
-            if (delta * delta > kNearZero * sizes[i] * sizes[i]) near_zeros.push_back(i);
-        Eigen::VectorXcd e(points);
-        for (Eigen::Index i = 0; i < points; ++i) {
-            const double size = std::sqrt(std::norm(phi[i]));
-            e[i] = size > 0 ? std::conj(phi[i]) / size : 1.0;
-        }
-        e = e.cwiseProduct(problem.weights.cwiseQuotient(sizes).cwiseSqrt().cast<Complex>());
-        Eigen::MatrixXd rows(points + static_cast<Eigen::Index>(near_zeros.size()), x.size());
-        for (Eigen::Index j = 0; j < m; ++j) {
-            const Eigen::VectorXcd column = e.cwiseProduct(problem.basis.col(j));
-            rows.col(j).head(points) = column.imag();
-            if (view.complex) rows.col(m + j).head(points) = column.real();  // of iφ_j
-            for (std::size_t i = 0; i < near_zeros.size(); ++i) {
-                const auto row = points + static_cast<Eigen::Index>(i);
-                const double ratio = delta / sizes[near_zeros[i]];
-                rows(row, j) = ratio * column[near_zeros[i]].real();
-                if (view.complex) rows(row, m + j) = -ratio * column[near_zeros[i]].imag();
-            }
-        }
-        Eigen::MatrixXd hessian = gram_lower(rows);
+    Eigen::VectorXcd coarse_phi = problem.basis * view.unpack(x), phi = fine.values(view.unpack(x));
+    const double total = problem.weights.sum();
+    const double delta = total > 0 ? problem.rounding * problem.weights.dot(coarse_phi.cwiseAbs()) / total : 0.0;
+    double norm = fine.norm(phi, delta);
+    for (; solution.newton_steps < options.max_steps; ++solution.newton_steps) {
+        const Eigen::VectorXd gradient = view.covector(fine.gradient(phi, delta));
+        Eigen::MatrixXd hessian = dual_hessian(problem, view, coarse_phi, delta);
         // c itself is a null direction (N is homogeneous of degree one). On the hyperplane a multiple of p pᵀ changes
         // nothing and makes the matrix definite; the tiny shift is for functions that no quadrature point sees.
         const double mean_diagonal = hessian.trace() / static_cast<double>(x.size());
@@ -138,22 +163,27 @@ DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& star
             break;
         }
 
+        const Eigen::VectorXcd phi_step = fine.values(view.unpack(step));
         double length = 1;
         bool accepted = false;
-        for (int halving = 0; halving < 40; ++halving, length *= 0.5) {
-            const Eigen::VectorXd trial = x + length * step;
-            Eigen::VectorXcd trial_phi = problem.basis * view.unpack(trial);
-            const double trial_norm = norm_of(trial_phi, trial);
-            if (trial_norm <= norm + 1e-4 * length * slope) {
-                x = trial / p.dot(trial);
-                phi = std::move(trial_phi);
-                accepted = true;
+        for (int halving = 0; halving < 40 && !accepted; ++halving) {
+            const Eigen::VectorXcd trial = phi + length * phi_step;
+            const double trial_norm = fine.norm(trial, delta);
+            accepted = trial_norm <= norm + 1e-4 * length * slope;
+            if (accepted) {
+                phi = trial;
                 norm = trial_norm;
-                break;
+            } else {
+                length *= 0.5;
             }
         }
+        if (accepted) {
+            x += length * step;
+            coarse_phi = problem.basis * view.unpack(x);
+        }
         // At the level of rounding no step need descend.
-        if (-slope < kGradientTolerance * norm) {
+        const bool flat = -slope < kGradientTolerance * norm;
+        if (flat || (accepted && length * step.norm() < options.step * x.norm())) {
             solution.converged = true;
             solution.newton_steps += accepted;
             break;
@@ -163,6 +193,7 @@ DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& star
     solution.coefficients = view.unpack(x);
     solution.pairing = p.dot(x);
     solution.norm = norm;
+    solution.phi = std::move(phi);
     return solution;
 }
 

@@ -10,16 +10,14 @@ namespace beltrami {
 ///     S/2 = max_c  Re Σ A b φ_c / Σ A a |φ_c|,    a = (1+|μ|²)/(1−|μ|²),   b = μ/(1−|μ|²).
 ///
 /// If μ = k conj(φ)/|φ| with φ in the space, the maximum is there and S = 2k/(1+k²). As a convex problem: minimise
-/// N(c) = Σ A a |φ_c| on the hyperplane Re Σ A b φ_c = 1, by Newton with backtracking.
+/// N(c) = Σ A a |φ_c| on the hyperplane Re Σ A b φ_c = 1, by Newton with backtracking. The Hessian is summed over
+/// quadrature points; N and its gradient too, or over more points (DualNorm).
 struct DualProblem {
-    Eigen::MatrixXcd basis;    ///< #Q×m values of the basis at quadrature points
-    Eigen::VectorXd weights;   ///< #Q weights of |φ|
-    Eigen::VectorXcd pairing;  ///< m values p_j = Σ A b φ_j
-    /// m values q_j added to the norm as Re Σ q_j c_j, or empty: what the gradient of the exact norm has beyond that of
-    /// a coarse quadrature. The minimum of the corrected problem is the exact one as soon as q is taken there.
-    Eigen::VectorXcd correction;
+    Eigen::MatrixXcd basis;     ///< #Q×m values of the basis at quadrature points
+    Eigen::VectorXd weights;    ///< #Q weights of |φ|
+    Eigen::VectorXcd pairing;   ///< m values p_j = Σ A b φ_j
     bool complex_coefficients;  ///< c complex, or real
-    /// |φ| is taken as √(|φ|² + δ²), δ = rounding · |c₀| with c₀ the start: smooth where a zero of φ meets a quadrature
+    /// |φ| is taken as √(|φ|² + δ²), δ = rounding · mean |φ| at the start: smooth where a zero of φ meets a quadrature
     /// point, at which |φ| itself has a kink that stops Newton.
     double rounding = 0;
 };
@@ -27,16 +25,36 @@ struct DualProblem {
 struct DualSolution {
     Eigen::VectorXcd coefficients;  ///< on the hyperplane; zero if the pairing vanishes
     double pairing = 0;             ///< Re Σ p_j c_j: 1, or 0 if the pairing vanishes
-    double norm = 0;                ///< N(c), correction included
+    double norm = 0;                ///< N(c)
+    Eigen::VectorXcd phi;           ///< φ_c at the points of the norm
     int newton_steps = 0;
     bool converged =
         false;  ///< false: the steps allowed did not suffice, or no step descends although the slope is not 0
 };
 
+/// N on points of its own.
+class DualNorm {
+  public:
+    virtual ~DualNorm() = default;
+    /// φ_c at the points.
+    virtual Eigen::VectorXcd values(const Eigen::VectorXcd& coefficients) const = 0;
+    /// Σ w √(|φ|² + δ²).
+    virtual double norm(const Eigen::VectorXcd& phi, double delta) const = 0;
+    /// m values Σ w conj(φ)/√(|φ|²+δ²) φ_j.
+    virtual Eigen::VectorXcd gradient(const Eigen::VectorXcd& phi, double delta) const = 0;
+};
+
+struct DualOptions {
+    int max_steps = 50;  ///< of Newton's method
+    double step = 0;     ///< stop after a step shorter than this part of c
+    /// Where N is minimised; null: on the points of the problem. The steps are Newton's as far as the problem's points
+    /// give the Hessian.
+    const DualNorm* norm = nullptr;
+};
+
 /// @param start coefficients to start from (may be shorter than m: padded by zeros; may be empty); ignored when its
-/// pairing is
-///              not positive
-DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& start, int max_newton_steps = 50);
+///              pairing is not positive
+DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& start, const DualOptions& options = {});
 
 /// m values Σ w conj(φ)/√(|φ|²+δ²) φ_j: the gradient of Σ w √(|φ_c|²+δ²) as a complex covector. The root is floored at
 /// 1e-12 of its maximum.

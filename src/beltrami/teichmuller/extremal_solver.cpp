@@ -43,7 +43,6 @@ void prescribe(Eigen::VectorXcd& map, const BoundaryCondition& boundary) {
     for (std::size_t i = 0; i < boundary.vertices.size(); ++i) map[boundary.vertices[i]] = boundary.images[i];
 }
 
-
 /// The problem on a mesh that no prescription nails down.
 struct Prepared {
     std::optional<SplitProblem> split;

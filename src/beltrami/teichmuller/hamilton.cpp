@@ -13,6 +13,8 @@ namespace {
 
 /// k of the f-step stays below this.
 constexpr double kLargest = 0.9999;
+/// The c-step is solved to this part of its change in the last iteration.
+constexpr double kStepBelowChange = 1e-2;
 /// The f-step is solved to this part of the change that the c-step will see.
 constexpr double kSolveBelowChange = 1e-3;
 
@@ -91,7 +93,7 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
         }
         ++iterations_;
         const Eigen::VectorXcd mu = beltrami_coefficient(source_.operators, map_);
-        step_ = coefficient_step_.solve(mu, state.direction, phi);
+        step_ = coefficient_step_.solve(mu, state.direction, kStepBelowChange * std::min(change, 0.1));
         change = (step_.direction - state.direction).norm();
         const double k_change = std::abs(step_.k - state.k);
         history_.push_back({step_.k, change, state.space->size()});
