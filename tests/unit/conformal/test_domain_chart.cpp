@@ -234,6 +234,14 @@ TEST(DomainChart, SlotsAreMadeRounder) {
     }
 }
 
+TEST(DomainChart, SlotsAreMadeRounderAroundAnotherOne) {
+    const Surface source(wavy_domain(0.07, 3));
+    const Chart chart = domain_chart(source, 1);
+    check_chart(source, chart, 1);
+    EXPECT_EQ(chart.excluded_faces, 0);
+    for (const int l : {0, 2, 3}) EXPECT_LT(hole_centre(rim(source, chart, l)).ratio, 1.35);
+}
+
 TEST(DomainChart, ARoundSourceStaysExactWhenItsHolesAreMadeRound) {
     // The unit disk with a slot, its boundary on the circle.
     Polygon outer;
