@@ -4,6 +4,8 @@
 
 #include <beltrami/baselines/baseline.h>
 #include <beltrami/conformal/boundary_values.h>
+#include <beltrami/conformal/domain_chart.h>
+#include <beltrami/conformal/fill_holes.h>
 #include <beltrami/conformal/flatten.h>
 #include <beltrami/conformal/round_disk.h>
 #include <beltrami/generate/double_torus.h>

@@ -28,6 +28,15 @@ Eigen::VectorXcd at_samples(const Operators& operators, const Eigen::VectorXcd& 
     return result;
 }
 
+std::vector<double> vertex_areas(const Operators& operators) {
+    std::vector<double> area(operators.vertex_count, 0.0);
+    for (int s = 0; s < operators.sample_count(); ++s) {
+        const auto stencil = operators.stencil(s);
+        for (const int v : stencil) area[v] += operators.weights[s] / static_cast<double>(stencil.size());
+    }
+    return area;
+}
+
 Chart make_chart(const Surface& source, Eigen::VectorXcd vertices, bool exact) {
     const Operators& operators = source.operators;
     Chart chart;

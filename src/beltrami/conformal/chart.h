@@ -42,4 +42,7 @@ Chart make_chart(const Surface& source, Eigen::VectorXcd vertices, bool exact);
 /// Values at the samples of a function given at the vertices: linear on triangles, bilinear on quads.
 Eigen::VectorXcd at_samples(const Operators& operators, const Eigen::VectorXcd& values);
 
+/// Each vertex' share of the source's area: equal parts of the samples of its faces.
+std::vector<double> vertex_areas(const Operators& operators);
+
 }  // namespace beltrami

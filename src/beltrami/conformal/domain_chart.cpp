@@ -40,15 +40,6 @@ std::vector<Complex> points_of(const std::vector<int>& loop, const Eigen::Vector
     return points;
 }
 
-std::vector<double> vertex_areas(const Operators& operators) {
-    std::vector<double> area(operators.vertex_count, 0.0);
-    for (int s = 0; s < operators.sample_count(); ++s) {
-        const auto stencil = operators.stencil(s);
-        for (const int v : stencil) area[v] += operators.weights[s] / static_cast<double>(stencil.size());
-    }
-    return area;
-}
-
 /// (a z + b)/(c z + d).
 struct Moebius {
     Complex a, b, c, d;
@@ -184,16 +175,48 @@ Chart approximate_chart(const Surface& source, int outer_loop, const Eigen::Vect
     return chart;
 }
 
-/// Faces that a map of the vertices turns over and the chart does not.
-int newly_turned(const Surface& source, const Chart& chart, const Eigen::VectorXcd& vertices) {
-    int turned = 0;
-    for (int s = 0; s < source.operators.sample_count(); ++s) {
-        if (chart.excluded[s]) continue;
-        const auto [dz, dzbar] = source.operators.derivatives(s, vertices);
-        turned += !(std::abs(dzbar) < std::abs(dz));
-    }
-    return turned;
+/// Whether a chart turns a sample over that another one does not.
+bool turns_more(const Surface& source, const Eigen::VectorXcd& vertices, const Eigen::VectorXcd& before) {
+    const auto turned = [&](int s, const Eigen::VectorXcd& z) {
+        const auto [dz, dzbar] = source.operators.derivatives(s, z);
+        return !(std::abs(dzbar) < std::abs(dz));
+    };
+    for (int s = 0; s < source.operators.sample_count(); ++s)
+        if (turned(s, vertices) && !turned(s, before)) return true;
+    return false;
 }
+
+Chart composed(const Surface& source, const Chart& chart, const HoleRounding& rounding) {
+    Chart result = chart;
+    if (chart.exact) {
+        const auto before = chart.analytic;
+        result.analytic = [before, rounding](Complex z) -> std::array<Complex, 2> {
+            const auto [g, slope] = before(z);
+            const auto [value, derivative] = rounding(g);
+            return {value, derivative * slope};
+        };
+        evaluate_exactly(source, result.analytic, result);
+        return result;
+    }
+    std::vector<char> used(chart.vertices.size(), 0);  // others may lie on a pole
+    for (const int v : source.mesh.faces.vertices()) used[v] = 1;
+    parallel_for(0, static_cast<int>(chart.vertices.size()), [&](int first, int last) {
+        for (int v = first; v < last; ++v)
+            if (used[v]) result.vertices[v] = rounding(chart.vertices[v])[0];
+    });
+    parallel_for(0, static_cast<int>(chart.positions.size()), [&](int first, int last) {
+        for (int s = first; s < last; ++s) {
+            const auto [value, derivative] = rounding(chart.positions[s]);
+            result.positions[s] = value;
+            result.derivatives[s] = derivative * chart.derivatives[s];
+        }
+    });
+    return result;
+}
+
+/// Where many powers fail on long holes, few may do.
+constexpr int kFewTerms = 4;
+constexpr double kWorthwhile = 0.8;  // of the ratio's excess over 1: to be undercut
 
 void make_holes_round(const Surface& source, const DomainChartOptions& options, Chart& chart) {
     std::vector<std::vector<Complex>> rims;
@@ -203,35 +226,18 @@ void make_holes_round(const Surface& source, const DomainChartOptions& options, 
         rims.push_back(points_of(source.topology.boundary_loops[l], chart.vertices));
         worst = std::max(worst, hole_centre(rims.back()).ratio);
     }
-    if (!(worst > options.round_from)) return;
-    const HoleRounding rounding = round_holes(std::move(rims), options.rounding);
-    if (rounding.steps.empty()) return;
-
-    Chart rounder = chart;
-    if (chart.exact) {
-        const auto before = chart.analytic;
-        rounder.analytic = [before, rounding](Complex z) -> std::array<Complex, 2> {
-            const auto [g, slope] = before(z);
-            const auto [value, derivative] = rounding(g);
-            return {value, derivative * slope};
-        };
-        evaluate_exactly(source, rounder.analytic, rounder);
-    } else {
-        std::vector<char> used(chart.vertices.size(), 0);  // others may lie on a pole
-        for (const int v : source.mesh.faces.vertices()) used[v] = 1;
-        parallel_for(0, static_cast<int>(chart.vertices.size()), [&](int first, int last) {
-            for (int v = first; v < last; ++v)
-                if (used[v]) rounder.vertices[v] = rounding(chart.vertices[v])[0];
-        });
-        parallel_for(0, static_cast<int>(chart.positions.size()), [&](int first, int last) {
-            for (int s = first; s < last; ++s) {
-                const auto [value, derivative] = rounding(chart.positions[s]);
-                rounder.positions[s] = value;
-                rounder.derivatives[s] = derivative * chart.derivatives[s];
-            }
-        });
+    const Chart unrounded = worst > options.round_from ? chart : Chart{};
+    HoleRoundingOptions rounding_options = options.rounding;
+    for (const int terms : {options.rounding.terms, kFewTerms}) {
+        if (!(worst > options.round_from) || terms > rounding_options.terms) return;
+        rounding_options.terms = terms;
+        const HoleRounding rounding = round_holes(rims, rounding_options);
+        if (rounding.steps.empty() || !(rounding.ratio - 1 < kWorthwhile * (worst - 1))) continue;
+        Chart rounder = composed(source, unrounded, rounding);
+        if (turns_more(source, rounder.vertices, unrounded.vertices)) continue;
+        chart = std::move(rounder);
+        worst = rounding.ratio;
     }
-    if (newly_turned(source, chart, rounder.vertices) == 0) chart = std::move(rounder);
 }
 
 }  // namespace

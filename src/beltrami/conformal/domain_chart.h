@@ -20,10 +20,12 @@ struct DomainChartOptions {
 /// - A disk: round_disk_chart.
 /// - A planar source whose outer loop lies on a circle: a similarity if it is the geometric outer loop, else the
 ///   inversion in it followed by a Möbius map of the disk (exact = true, analytic).
-/// - Otherwise the other loops are filled (fill_holes) and the chart is the round disk's of the filled surface. A
-/// planar
-///   source with another outer loop than the geometric one is first turned inside out, by inversion in a place inside
-///   that loop.
+/// - Any other planar source: the holes are filled in the plane (fill_holes) and the chart is the round disk's of the
+///   filled domain. Where another loop than the geometric outer one goes outside, the source is first turned inside
+///   out, by inversion in a place inside that loop.
+/// - A surface in space or with a metric of its own: the hole with the most vertices stays open, the others are filled,
+///   and the chart is the round annulus's (annulus_map). Where no hole has options.least_rim vertices all are filled
+///   and the chart is the round disk's of the filled surface, which costs a flattening.
 ///
 /// Then, where holes are far from round, they are made rounder by an analytic map (round_holes); where that does not
 /// succeed the chart is kept as it is. It improves only how well series about the centres of the holes are

@@ -59,19 +59,20 @@ std::vector<Cap> planar_caps(const Surface& source, const std::vector<int>& loop
 }
 
 /// Positions over the inside of a circle from those of points on it: Poisson's integral.
-Positions harmonic_positions(const Positions& positions, const Cap& cap) {
+/// @param rim positions of the corners
+Positions harmonic_positions(const Positions& rim, const Cap& cap) {
     const int n = static_cast<int>(cap.rim.size());
     const double radius = std::abs(cap.corners[0]);
     std::vector<double> arc(n);
     for (int i = 0; i < n; ++i)
         arc[i] = std::arg(cap.corners[(i + 1) % n] / cap.corners[i]) +
                  std::arg(cap.corners[i] / cap.corners[(i + n - 1) % n]);
-    Positions result = Positions::Zero(cap.fill.added.size(), positions.cols());
+    Positions result = Positions::Zero(cap.fill.added.size(), rim.cols());
     for (std::size_t j = 0; j < cap.fill.added.size(); ++j) {
         double total = 0;
         for (int i = 0; i < n; ++i) {
             const double weight = arc[i] * radius * radius / std::norm(cap.corners[i] - cap.fill.added[j]);
-            result.row(j) += weight * positions.row(cap.rim[i]);
+            result.row(j) += weight * rim.row(i);
             total += weight;
         }
         result.row(j) /= total;
@@ -88,7 +89,9 @@ std::vector<Complex> triangle(const std::vector<double>& sides) {
 }
 
 /// A cap of its own shape.
-Cap intrinsic_cap(const Surface& source, int loop) {
+/// @param normals of the source's vertices
+/// @param raised  whether its vertices have to leave the plane of the source, which they would cover twice
+Cap intrinsic_cap(const Surface& source, int loop, const Positions& normals, bool raised) {
     const auto& vertices = source.topology.boundary_loops[loop];
     const int n = static_cast<int>(vertices.size());
     Cap cap;
@@ -101,18 +104,29 @@ Cap intrinsic_cap(const Surface& source, int loop) {
         longest = std::max(longest, lengths[i]);
         total += lengths[i];
     }
-    cap.corners = n == 3 ? triangle(lengths) : cyclic_polygon(lengths);
+    cap.corners = n == 3 && !(raised && loop == 0) ? triangle(lengths) : cyclic_polygon(lengths);
+    Eigen::Vector3d up = Eigen::Vector3d::Zero();
+    for (const int v : vertices) up += normals.row(v).transpose();
+    up = up.norm() > 0 ? up.normalized().eval() : Eigen::Vector3d::UnitZ();
+    const int columns = raised ? 3 : static_cast<int>(source.mesh.positions.cols());
+    Positions rim = Positions::Zero(n, columns);
+    for (int i = 0; i < n; ++i) rim.row(i).head(source.mesh.positions.cols()) = source.mesh.positions.row(cap.rim[i]);
     if (!cap.corners.empty()) {
         cap.fill = fill_polygon(cap.corners);
-        cap.added = harmonic_positions(source.mesh.positions, cap);
+        if (!cap.fill.added.empty())
+            cap.added = harmonic_positions(rim, cap);
+        else
+            cap.added = Positions::Zero(0, columns);
+        const double radius = std::abs(cap.corners[0]);
+        for (std::size_t i = 0; raised && i < cap.fill.added.size(); ++i)
+            cap.added.row(i) += 0.5 * (radius - std::norm(cap.fill.added[i]) / radius) * up.transpose();
         return cap;
     }
     cap.fill = cone(n);
     cap.slant = std::max(0.6 * longest, total / (2 * std::numbers::pi));
-    cap.added = Positions::Zero(1, source.mesh.positions.cols());
-    for (int i = 0; i < n; ++i)
-        cap.added.row(0) +=
-            (lengths[i] + lengths[(i + n - 1) % n]) / (2 * total) * source.mesh.positions.row(cap.rim[i]);
+    cap.added = Positions::Zero(1, columns);
+    for (int i = 0; i < n; ++i) cap.added.row(0) += (lengths[i] + lengths[(i + n - 1) % n]) / (2 * total) * rim.row(i);
+    if (columns == 3) cap.added.row(0) += 0.5 * cap.slant * up.transpose();  // the loop may have no area of its own
     return cap;
 }
 
@@ -145,7 +159,13 @@ FilledSurface fill_holes(const Surface& source, const std::vector<int>& open) {
     }
     if (!result.planar) {
         caps.clear();
-        for (const int l : loops) caps.push_back(intrinsic_cap(source, l));
+        const bool raised = is_planar(source.mesh);
+        if (raised && result.mesh.positions.cols() == 2) {
+            result.mesh.positions.conservativeResize(Eigen::NoChange, 3);
+            result.mesh.positions.col(2).setZero();
+        }
+        const Positions normals = vertex_normals(source.mesh);
+        for (const int l : loops) caps.push_back(intrinsic_cap(source, l, normals, raised));
     }
 
     Eigen::Index vertices = source.mesh.vertex_count();

@@ -29,9 +29,10 @@ struct FilledSurface {
 ///   triangles lie in the holes.
 /// - Otherwise every fill has a shape of its own, glued in along sides of equal length: the flat convex polygon with
 ///   the loop's edge lengths whose corners lie on a circle, or a cone where there is none. The positions of its
-///   vertices only show it: the harmonic surface over that polygon.
+///   vertices only show it: the harmonic surface over that polygon, raised above a planar source (which gets a third
+///   coordinate).
 ///
-/// A loop of three vertices is closed by one triangle. Texture coordinates are dropped.
+/// A loop of three vertices that has an area is closed by one triangle. Texture coordinates are dropped.
 /// @param open loops to leave as they are
 /// @throw Error bad_option if there is no such loop
 FilledSurface fill_holes(const Surface& source, const std::vector<int>& open);

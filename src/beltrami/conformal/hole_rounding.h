@@ -44,7 +44,7 @@ struct HoleRoundingOptions {
 /// rim, C_h and R_h unknown, is solved by least squares over the vertices of the rims, and the map, held to |F′ − 1| ≤
 /// ½ to first order, is composed with those before. Deviations: the unknowns are series with poles in the holes instead
 /// of boundary values, and the outer circle is kept exactly by symmetry. Only the rims are used, so a step costs
-/// little. Source: Wegmann 2005, "Methods for numerical conformal mapping" (Handbook of Complex Analysis 2), ch. 6.
+/// little. Source: Wegmann 2005, "Methods for numerical conformal mapping" (Handbook of Complex Analysis 2).
 /// @param rims of the holes, inside the unit circle
 HoleRounding round_holes(std::vector<std::vector<Complex>> rims, const HoleRoundingOptions& options = {});
 

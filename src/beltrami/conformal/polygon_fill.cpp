@@ -12,8 +12,9 @@ namespace beltrami {
 
 namespace {
 
-constexpr double kGrading = 0.5;    // growth of the edges per distance from the sides
-constexpr double kSlack = 1.4;      // edges at a side may be so much longer than it: sides are not to be split
+constexpr double kGrading = 0.5;  // growth of the edges per distance from the sides
+constexpr double kSlack = 1.4;    // edges at a side may be so much longer than it: sides are not to be split
+constexpr double kFrameDigits = 1 << 30;
 constexpr double kClearance = 0.4;  // an added vertex keeps this part of a side's length away from it
 
 double distance(Complex p, Complex a, Complex b) {
@@ -46,10 +47,16 @@ std::vector<Complex> inner_points(const std::vector<Complex>& corners) {
     options.min_angle = 0.35;
     options.smoothing_passes = 2;
     options.split_ears = false;
+    std::vector<std::pair<Complex, double>> sides;  // middle and the size there
+    for_sides(0, [&](double length, double) { sides.emplace_back(0.0, kSlack * length); });
+    for (std::size_t i = 0; i < n; ++i) sides[i].first = 0.5 * (corners[i] + corners[i + 1 < n ? i + 1 : 0]);
     options.size = [&](const Eigen::Vector2d& p) {
         double size = std::numeric_limits<double>::infinity();
-        for_sides({p.x(), p.y()},
-                  [&](double length, double d) { size = std::min(size, kSlack * length + kGrading * d); });
+        for (const auto& [middle, at_side] : sides) {
+            const double reach = (size - at_side) / kGrading;  // the side matters within this distance
+            const double dx = p.x() - middle.real(), dy = p.y() - middle.imag(), square = dx * dx + dy * dy;
+            if (reach > 0 && square < reach * reach) size = at_side + kGrading * std::sqrt(square);
+        }
         return size;
     };
     const Mesh refined = triangulate(domain_of(corners, {}), options);
@@ -119,13 +126,20 @@ void split_chords(const std::vector<Complex>& corners, PolygonFill& fill) {
 
 PolygonFill fill_polygon(const std::vector<Complex>& corners) {
     if (corners.size() == 3) return {{}, {{0, 1, 2}}};
-    // About 0 and of size 1: a place far from the origin costs no digits.
+    // In a frame of its own, where rounding is cut off: many corners of a hole lie on one circle, and which triangles
+    // are Delaunay there is not to depend on the polygon's place, size or direction.
     Complex middle = 0;
     for (const Complex z : corners) middle += z / static_cast<double>(corners.size());
+    Complex axis = corners[0] - middle;
     double scale = 0;
     for (const Complex z : corners) scale = std::max(scale, std::abs(z - middle));
+    if (std::abs(axis) < 0.1 * scale) axis = scale;
     std::vector<Complex> scaled;
-    for (const Complex z : corners) scaled.push_back((z - middle) / scale);
+    for (const Complex z : corners) {
+        const Complex p = (z - middle) / axis;
+        scaled.emplace_back(std::round(p.real() * kFrameDigits) / kFrameDigits,
+                            std::round(p.imag() * kFrameDigits) / kFrameDigits);
+    }
 
     PolygonFill fill;
     fill.added = inner_points(scaled);
@@ -137,7 +151,7 @@ PolygonFill fill_polygon(const std::vector<Complex>& corners) {
     for (int f = 0; f < mesh.face_count(); ++f)
         fill.triangles.push_back({mesh.faces[f][0], mesh.faces[f][1], mesh.faces[f][2]});
     split_chords(scaled, fill);
-    for (Complex& z : fill.added) z = middle + scale * z;
+    for (Complex& z : fill.added) z = middle + axis * z;
     return fill;
 }
 

@@ -67,15 +67,6 @@ Complex deep_point(const Surface& source, const HarmonicFunctions& harmonic, con
     return middle;
 }
 
-std::vector<double> vertex_areas(const Operators& operators) {
-    std::vector<double> area(operators.vertex_count, 0.0);
-    for (int s = 0; s < operators.sample_count(); ++s) {
-        const auto stencil = operators.stencil(s);
-        for (const int v : stencil) area[v] += operators.weights[s] / static_cast<double>(stencil.size());
-    }
-    return area;
-}
-
 void slide(const Surface& source, Eigen::VectorXcd& g, const RoundDiskOptions& options, int* factorizations) {
     const auto& loop = source.topology.boundary_loops[0];
     const int n = source.mesh.vertex_count();
