@@ -29,7 +29,7 @@ void set_noise(Outline& outline, const CornerOptions& options) {
         0, n,
         [&](int first, int last) {
             for (int i = first; i < last; ++i) {
-                const WindowFit fit = fit_window(outline, i, Reach{scale, scale}, scale, options);
+                const WindowFit fit = fit_window(outline, i, scale, options);
                 for (int c = 0; c < 3; ++c) residuals[c][i] = fit.residual[c];
             }
         },
