@@ -29,7 +29,7 @@ void set_noise(Outline& outline, const CornerOptions& options) {
         0, n,
         [&](int first, int last) {
             for (int i = first; i < last; ++i) {
-                const WindowFit fit = fit_window(outline, i, Reach{scale, scale}, scale, options);
+                const WindowFit fit = fit_window(outline, i, scale, options);
                 for (int c = 0; c < 3; ++c) residuals[c][i] = fit.residual[c];
             }
         },
@@ -90,6 +90,8 @@ class Search {
             queue.pop();
             if (taken_[best.position] != 0 || best.significance != significance_[best.position]) continue;
             taken_[best.position] = 1;
+            if (fit_corner(outline_, best.position, reach_[best.position], options_).exponent != 1)
+                keep_clear(best.position);
             limit(best.position);
             for (int d = -outline_.reach; d <= outline_.reach; ++d) {
                 const int i = (best.position + d + n_) % n_;
@@ -109,6 +111,15 @@ class Search {
             before.out = std::min(before.out, d);
             after.in = std::min(after.in, d);
         }
+    }
+
+    /// Gives up the neighbours of a vertex where the data behave like a power: that is singular at every scale, so its
+    /// nearest neighbours look like corners too.
+    void keep_clear(int corner) {
+        constexpr int kClear = 8;
+        for (int d = 1; d <= std::min(kClear, outline_.reach); ++d)
+            for (const int i : {(corner - d + n_) % n_, (corner + d) % n_})
+                if (taken_[i] == 0) taken_[i] = 2;
     }
 
     /// Gives up for good what was taken but is no corner beside those taken later. False if there is none.

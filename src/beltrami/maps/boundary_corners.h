@@ -42,12 +42,17 @@ double corner_bound(double source_angle, double image_angle, double speed_out, d
 /// On both sides of every vertex the boundary is followed over 4, 8, 16 and 32 edges, at most an eighth of its loop and
 /// up to the next corner found: in the image, and in the source laid out in the plane by its edge lengths and interior
 /// angles. With distances r from the vertex, the chord directions, extrapolated linearly to r = 0, give α and β; log of
-/// image over source distance, fitted as log c + a r (+ (p − 1) log r), gives c and p. Fits weigh r², so single edges
-/// count little. A jump is compared with its threshold plus `confidence` standard deviations, which the fits' residuals
-/// (and at least the loop's own level, the lower sixth of all residuals) give, so a jagged outline is no corner though
-/// its edges turn. Corners are taken one by one, most significant first; windows end at those taken. Jumps of smooth
-/// data are of third order in the window. Corners closer than 5 edges to each other, and those of loops with fewer than
-/// 24 vertices, may be missed. Linear time.
+/// image over source distance, fitted as log c + a r, or + (p − 1) log r if that leaves clearly less than + b r², gives
+/// c and p. Fits weigh r², so single edges count little.
+///
+/// A jump is compared with its threshold plus `confidence` standard deviations. These follow from what the fits leave
+/// (and at least from the loop's own level, the lower sixth of that of all vertices), for vertices that are displaced
+/// independently, this one too: so a jagged outline is no corner though its edges turn. No window may rule the jump
+/// out. Corners are taken one by one, most significant first; windows end at those taken, and a power keeps the 8
+/// vertices on both sides from being taken.
+///
+/// Jumps of smooth data are of third order in the window. Corners closer than 5 edges to each other, and those of loops
+/// with fewer than 24 vertices, may be missed; a bend narrower than 4 edges counts as a corner. Linear time.
 /// @pre validate(boundary, source)
 std::vector<BoundaryCorner> find_corners(const Surface& source, const BoundaryCondition& boundary,
                                          const CornerOptions& options = {});

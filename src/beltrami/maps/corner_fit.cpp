@@ -77,6 +77,48 @@ double deviation(const LineFit& out, const LineFit& in, double size) {
     return size * std::sqrt(out.variance + in.variance + of_vertex * of_vertex);
 }
 
+/// The boundary on both sides of a vertex, ahead first.
+struct Sides {
+    std::array<Side, 2> source, image;                                 ///< equally many points; no image if not placed
+    std::array<std::array<double, kWindow>, 2> log_radius, log_ratio;  ///< of the source; of image to source
+    bool placed = false;  ///< the vertex and both neighbours are prescribed
+
+    std::array<int, 2> counts(int scale) const {
+        return {std::min(scale, source[0].count), std::min(scale, source[1].count)};
+    }
+};
+
+Sides follow(const Outline& outline, int position, Reach reach) {
+    const int n = outline.size();
+    const auto around = [&](int i) { return (position + i + n) % n; };
+    Sides sides;
+    sides.placed = outline.prescribed[position] && outline.prescribed[around(1)] && outline.prescribed[around(-1)];
+    const Complex base = outline.developed[position + outline.reach], image_base = outline.images[position];
+    for (int side = 0; side < 2; ++side) {
+        Complex previous = 0, image_previous = 0;
+        for (int j = 0; j < (side == 0 ? reach.out : reach.in); ++j) {
+            const int step = side == 0 ? j + 1 : -j - 1;
+            if (sides.placed && !outline.prescribed[around(step)]) break;
+            const Complex chord = outline.developed[position + outline.reach + step] - base;
+            const Complex image_chord = sides.placed ? outline.images[around(step)] - image_base : Complex(1);
+            if (chord == 0.0 || image_chord == 0.0) break;
+            sides.source[side].add(chord, previous, side == 0 ? 0.0 : outline.angles[position]);
+            previous = chord;
+            if (!sides.placed) continue;
+            double first = 0;
+            if (side == 1 && j == 0) {
+                first = std::arg(image_chord / (outline.images[around(1)] - image_base));
+                if (first <= 0) first += 2 * kPi;
+            }
+            sides.image[side].add(image_chord, image_previous, first);
+            image_previous = image_chord;
+            sides.log_radius[side][j] = std::log(std::abs(chord));
+            sides.log_ratio[side][j] = std::log(std::abs(image_chord)) - sides.log_radius[side][j];
+        }
+    }
+    return sides;
+}
+
 /// log of image over source distance ≈ log c1 or log c2 + slope r + q log r, the slopes of the sides apart; or, to see
 /// whether smooth data explain as much, with q r² instead.
 struct PowerFit {
@@ -86,28 +128,30 @@ struct PowerFit {
     bool valid = false;
 };
 
-PowerFit fit_power(const std::array<const double*, 2>& x, const std::array<const double*, 2>& y,
-                   const std::array<int, 2>& count, double noise, bool logarithm) {
+PowerFit fit_power(const Sides& sides, const std::array<int, 2>& count, double noise, bool logarithm) {
     using Vector = Eigen::Matrix<double, 5, 1>;
     Eigen::Matrix<double, 5, 5> normal = Eigen::Matrix<double, 5, 5>::Zero();
     Vector right = Vector::Zero();
     std::array<Vector, 2> of_vertex{Vector::Zero(), Vector::Zero()};
+    const std::array<const double*, 2> x{sides.source[0].radius.data(), sides.source[1].radius.data()};
     double scale = 0;
     for (int side = 0; side < 2; ++side)
         for (int i = 0; i < count[side]; ++i) scale = std::max(scale, x[side][i]);
-    const auto row = [&](int side, double r) {
+    const double log_scale = std::log(scale);
+    const auto row = [&](int side, int i) {
+        const double r = x[side][i] / scale;
         Vector result = Vector::Zero();
         result[side] = 1;
         result[2 + side] = r;
-        result[4] = logarithm ? std::log(r) : r * r;
+        result[4] = logarithm ? sides.log_radius[side][i] - log_scale : r * r;
         return result;
     };
     for (int side = 0; side < 2; ++side)
         for (int i = 0; i < count[side]; ++i) {
             const double r = x[side][i] / scale;
-            const Vector a = row(side, r);
+            const Vector a = row(side, i);
             normal.noalias() += r * r * a * a.transpose();
-            right += r * r * y[side][i] * a;
+            right += r * r * sides.log_ratio[side][i] * a;
             of_vertex[side] += r * a / scale;
         }
     PowerFit fit;
@@ -119,7 +163,7 @@ PowerFit fit_power(const std::array<const double*, 2>& x, const std::array<const
     double squares = 0;
     for (int side = 0; side < 2; ++side)
         for (int i = 0; i < count[side]; ++i) {
-            const double left = x[side][i] * (y[side][i] - row(side, x[side][i] / scale).dot(solution));
+            const double left = x[side][i] * (sides.log_ratio[side][i] - row(side, i).dot(solution));
             squares += left * left;
         }
     fit.valid = true;
@@ -133,99 +177,68 @@ PowerFit fit_power(const std::array<const double*, 2>& x, const std::array<const
     Vector jump = Vector::Zero();
     jump[0] = -1, jump[1] = 1;
     fit.q = solution[4];
-    fit.out = solution[0] - fit.q * std::log(scale);
-    fit.in = solution[1] - fit.q * std::log(scale);
+    fit.out = solution[0] - fit.q * log_scale;
+    fit.in = solution[1] - fit.q * log_scale;
     fit.deviation_q = deviation_of(Vector::Unit(4));
     fit.deviation_jump = deviation_of(jump);
     return fit;
 }
 
-}  // namespace
-
-WindowFit fit_window(const Outline& outline, int position, Reach reach, int scale, const CornerOptions& options) {
-    const int n = outline.size();
-    const std::array<int, 2> count{std::min(scale, reach.out), std::min(scale, reach.in)};
-    const std::array<int, 2> step{1, -1};
-    const bool placed = outline.prescribed[position] && outline.prescribed[(position + 1) % n] &&
-                        outline.prescribed[(position + n - 1) % n];
-    std::array<Side, 2> source, image;
-    std::array<std::array<double, kWindow>, 2> ratio;
-    const auto image_at = [&](int i) { return outline.images[(position + i + n) % n]; };
-    for (int side = 0; side < 2; ++side) {
-        const Complex base = outline.developed[position + outline.reach];
-        Complex previous = 0, image_previous = 0;
-        for (int j = 1; j <= count[side]; ++j) {
-            const int at = step[side] * j;
-            if (placed && !outline.prescribed[(position + at + n) % n]) break;
-            const Complex chord = outline.developed[position + outline.reach + at] - base;
-            const Complex image_chord = placed ? image_at(at) - image_at(0) : Complex(1);
-            if (chord == 0.0 || image_chord == 0.0) break;
-            source[side].add(chord, previous, side == 0 ? 0.0 : outline.angles[position]);
-            previous = chord;
-            if (!placed) continue;
-            double first = 0;
-            if (side == 1 && j == 1) {
-                first = std::arg(image_chord / (image_at(1) - image_at(0)));
-                if (first <= 0) first += 2 * kPi;
-            }
-            image[side].add(image_chord, image_previous, first);
-            ratio[side][j - 1] = std::log(std::abs(image_chord) / std::abs(chord));
-            image_previous = image_chord;
-        }
-    }
-
+WindowFit fit_sides(const Outline& outline, const Sides& sides, int scale, const CornerOptions& options) {
+    const std::array<int, 2> count = sides.counts(scale);
     WindowFit result;
-    if (source[0].count == 0 || source[1].count == 0) return result;
+    if (count[0] == 0 || count[1] == 0) return result;
     // Without slopes the turning of a smooth curve cannot be told from a corner: that of a circle is allowed for.
-    const auto turning = [&](const LineFit& fit, const Side& side) {
-        return fit.slope ? 0.0 : kPi * (side.count + 0.5) / n;
+    const auto turning = [&](const LineFit& fit, int points) {
+        return fit.slope ? 0.0 : kPi * (points + 0.5) / outline.size();
     };
-    const auto turn = [&](const std::array<Side, 2>& sides, int channel) {
-        const LineFit out = fit_line(sides[0].radius.data(), sides[0].angle.data(), sides[0].count);
-        const LineFit in = fit_line(sides[1].radius.data(), sides[1].angle.data(), sides[1].count);
+    const auto turn = [&](const std::array<Side, 2>& curve, int channel) {
+        const LineFit out = fit_line(curve[0].radius.data(), curve[0].angle.data(), count[0]);
+        const LineFit in = fit_line(curve[1].radius.data(), curve[1].angle.data(), count[1]);
         result.residual[channel] = displacement(out.squares + in.squares, out.freedom + in.freedom);
         result.jumps[channel] = {kPi - (in.value - out.value),
                                  deviation(out, in, std::max(outline.noise[channel], result.residual[channel])),
-                                 options.min_turn + turning(out, sides[0]) + turning(in, sides[1]), true};
+                                 options.min_turn + turning(out, count[0]) + turning(in, count[1]), true};
     };
-    turn(source, 0);
-    if (!placed) return result;
-    turn(image, 1);
+    turn(sides.source, 0);
+    if (!sides.placed) return result;
+    turn(sides.image, 1);
 
-    const LineFit out = fit_line(source[0].radius.data(), ratio[0].data(), source[0].count);
-    const LineFit in = fit_line(source[1].radius.data(), ratio[1].data(), source[1].count);
+    const LineFit out = fit_line(sides.source[0].radius.data(), sides.log_ratio[0].data(), count[0]);
+    const LineFit in = fit_line(sides.source[1].radius.data(), sides.log_ratio[1].data(), count[1]);
     result.residual[2] = displacement(out.squares + in.squares, out.freedom + in.freedom);
-    result.log_out = out.value;
-    result.log_in = in.value;
+    result.log_speed = {out.value, in.value};
     result.jumps[2] = {in.value - out.value, deviation(out, in, std::max(outline.noise[2], result.residual[2])),
                        options.min_log_speed, true};
     constexpr int kFewest = 6;  // points a side for a power
-    if (source[0].count < kFewest || source[1].count < kFewest) return result;
-    const auto fit_with = [&](bool logarithm) {
-        return fit_power({source[0].radius.data(), source[1].radius.data()}, {ratio[0].data(), ratio[1].data()},
-                         {source[0].count, source[1].count}, outline.noise[2], logarithm);
-    };
-    const PowerFit power = fit_with(true);
+    if (count[0] < kFewest || count[1] < kFewest) return result;
+    const PowerFit power = fit_power(sides, count, outline.noise[2], true);
     if (!power.valid) return result;
     result.jumps[3] = {power.q, power.deviation_q, options.min_exponent, true};
     // A power has to describe the data clearly better than the square that smooth data begin with.
     constexpr double kBetter = 0.7;
     if (std::abs(power.q) > options.min_exponent + options.confidence * power.deviation_q &&
-        power.residual < kBetter * fit_with(false).residual) {
+        power.residual < kBetter * fit_power(sides, count, outline.noise[2], false).residual) {
         result.power = true;
-        result.log_out = power.out;
-        result.log_in = power.in;
+        result.log_speed_of_power = {power.out, power.in};
         result.jumps[2].value = power.in - power.out;
         result.jumps[2].sigma = power.deviation_jump;
     }
     return result;
 }
 
+}  // namespace
+
+WindowFit fit_window(const Outline& outline, int position, int scale, const CornerOptions& options) {
+    return fit_sides(outline, follow(outline, position, {scale, scale}), scale, options);
+}
+
 BoundaryCorner fit_corner(const Outline& outline, int position, Reach reach, const CornerOptions& options) {
+    const Sides sides = follow(outline, position, reach);
     std::array<WindowFit, 4> fits;  // 4, 8, 16, 32 edges
     int count = 0;
     for (int scale = std::min(4, outline.reach);; scale *= 2) {
-        fits[count++] = fit_window(outline, position, reach, scale, options);
+        fits[count++] = fit_sides(outline, sides, scale, options);
         if (2 * scale > outline.reach || scale >= std::max(reach.out, reach.in)) break;
     }
     std::array<double, 4> significance{};
@@ -241,7 +254,7 @@ BoundaryCorner fit_corner(const Outline& outline, int position, Reach reach, con
         significance[c] = std::min(most, limit);
     }
     const bool power = significance[3] > 1;
-    /// The window in which a sum of deviations is smallest; of equals the largest.
+    // The window in which a sum of deviations is smallest; of equals the largest.
     const auto best = [&](int first, int last, bool with_power) -> const WindowFit& {
         int chosen = -1;
         double least = std::numeric_limits<double>::infinity();
@@ -265,8 +278,9 @@ BoundaryCorner fit_corner(const Outline& outline, int position, Reach reach, con
     }
     corner.image_angle = kPi - angles.jumps[1].value;
     const WindowFit& speeds = best(2, 3, power);
-    corner.speed_out = std::exp(speeds.log_out);
-    corner.speed_in = std::exp(speeds.log_in);
+    const auto& [log_out, log_in] = power ? speeds.log_speed_of_power : speeds.log_speed;
+    corner.speed_out = std::exp(log_out);
+    corner.speed_in = std::exp(log_in);
     if (power) corner.exponent = 1 + speeds.jumps[3].value;
     corner.corner_bound = beltrami::corner_bound(corner.source_angle, corner.image_angle, corner.speed_out,
                                                  corner.speed_in, corner.exponent);

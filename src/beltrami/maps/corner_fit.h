@@ -43,12 +43,13 @@ struct Jump {
 struct WindowFit {
     std::array<Jump, 4> jumps;
     std::array<double, 3> residual{};  ///< displacements that the first three fits leave; 0 without a degree of freedom
-    double log_out = 0, log_in = 0;    ///< log c1 and log c2
-    bool power = false;                ///< the exponent is needed to describe the data
+    std::array<double, 2> log_speed{};           ///< log c1 and log c2 for p = 1
+    std::array<double, 2> log_speed_of_power{};  ///< the same for the exponent found
+    bool power = false;                          ///< the exponent is needed to describe the data
 };
 
-/// Fits vertex @p position over at most @p scale edges to both sides.
-WindowFit fit_window(const Outline& outline, int position, Reach reach, int scale, const CornerOptions& options);
+/// Fits vertex @p position over @p scale edges to both sides. @pre scale ≤ outline.reach
+WindowFit fit_window(const Outline& outline, int position, int scale, const CornerOptions& options);
 
 /// What all windows say together (the loop is not set). A jump is as significant as its most significant window, but
 /// no more than any window allows, measured jump plus deviations. Angles and speeds are those of the window with the

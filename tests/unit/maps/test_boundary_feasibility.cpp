@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <chrono>
 #include <numbers>
+#include <random>
 
 #include <beltrami/generate/sphere.h>
 #include <beltrami/maps/boundary_feasibility.h>
 #include <beltrami/mesh/error.h>
+#include <beltrami/mesh/segment_tree.h>
 #include <beltrami/mesh/submesh.h>
 
 #include "support/meshes.h"
@@ -124,6 +126,32 @@ TEST(Feasibility, LoopsThatAreNotSimple) {
     const Refusal pair = examine(surface, twice);
     EXPECT_TRUE(pair.says("same image"));
     EXPECT_TRUE(pair.names(twice.vertices[20]) && pair.names(twice.vertices[5]));
+}
+
+TEST(Feasibility, AgreesWithComparingAllPairs) {
+    const Surface surface(disk(6));
+    const auto& loop = surface.topology.boundary_loops[0];
+    const std::size_t n = loop.size();
+    std::mt19937 random(11);
+    const auto uniform = [&] { return static_cast<double>(random()) / static_cast<double>(random.max()); };
+    int refused = 0;
+    constexpr int kTrials = 300;
+    for (int trial = 0; trial < kTrials; ++trial) {
+        const double amount = 0.4 * uniform();
+        BoundaryCondition boundary;
+        for (std::size_t i = 0; i < n; ++i)
+            boundary.pin(loop[i], std::polar(1.0, 2 * kPi * static_cast<double>(i) / static_cast<double>(n)) +
+                                      amount * Complex(uniform() - 0.5, uniform() - 0.5));
+        const auto edge = [&](std::size_t i) { return Segment{boundary.images[i], boundary.images[(i + 1) % n]}; };
+        bool meets = false;
+        for (std::size_t i = 0; i < n; ++i)
+            for (std::size_t j = i + 2; j < n; ++j)
+                meets = meets || ((i > 0 || j + 1 < n) && segments_meet(edge(i), edge(j)));
+        EXPECT_EQ(examine(surface, boundary).refused, meets);
+        refused += meets;
+    }
+    EXPECT_GT(refused, kTrials / 10);
+    EXPECT_LT(refused, kTrials - kTrials / 10);
 }
 
 TEST(Feasibility, Holes) {
