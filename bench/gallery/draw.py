@@ -15,7 +15,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib import ticker
 from matplotlib.collections import PolyCollection
-from PIL import Image
+from PIL import Image, ImageChops
 
 MOST_BYTES = 80_000
 FLIPPED = (0.85, 0.1, 0.1, 1.0)
@@ -228,9 +228,19 @@ def fixed_palette():
     lines = [matplotlib.colors.to_rgb(f"C{i}") for i in range(8)]
     for c, steps in [(np.array(FLIPPED[:3]), 8)] + [(np.array(c), 6) for c in lines + list(CHECKER)]:
         colours += [tuple(c + (1 - c) * t) for t in np.linspace(0, 1, steps, endpoint=False)]
-    image = Image.new("P", (1, 1))
-    image.putpalette([int(round(255 * x)) for c in colours[:256] for x in c])
-    return image
+    return np.array([[int(round(255 * x)) for x in c] for c in colours[:256]])
+
+
+def with_palette(image, palette):
+    """The image in the nearest colours of the palette. (PIL's own search is not exact and turns white to cream.)"""
+    pixels = np.asarray(image).reshape(-1, 3).astype(np.int64)
+    colours, index = np.unique(pixels @ [65536, 256, 1], return_inverse=True)
+    colours = np.stack([colours >> 16, colours >> 8 & 255, colours & 255], 1)
+    nearest = np.concatenate([((part[:, None] - palette[None]) ** 2).sum(2).argmin(1)
+                              for part in np.array_split(colours, max(1, len(colours) // 4096))])
+    result = Image.fromarray(nearest[index].reshape(image.size[::-1]).astype(np.uint8), "P")
+    result.putpalette(palette.astype(np.uint8).ravel().tolist())
+    return result
 
 
 def save(figure, path, flat):
@@ -239,12 +249,14 @@ def save(figure, path, flat):
     figure.savefig(buffer, format="png", dpi=DPI)
     plt.close(figure)
     full = Image.open(buffer).convert("RGB")
+    left, top, right, bottom = ImageChops.difference(full, Image.new("RGB", full.size, "white")).getbbox()
+    full = full.crop((max(left - 6, 0), max(top - 6, 0), min(right + 6, full.width), min(bottom + 6, full.height)))
     for scale in (1, 0.85, 0.7, 0.55, 0.4):
         image = full if scale == 1 else full.resize([int(scale * s) for s in full.size], Image.LANCZOS)
         for count in (256,) if flat else (256, 128):
             packed = io.BytesIO()
             if flat:
-                reduced = image.quantize(palette=fixed_palette(), dither=Image.Dither.NONE)
+                reduced = with_palette(image, fixed_palette())
             else:
                 reduced = image.quantize(count, dither=Image.Dither.NONE)
             reduced.save(packed, "PNG", optimize=True)
