@@ -7,10 +7,12 @@
 // be obeyed. Prints every seed that breaks one of these, then counts; the exit code is 1 if there was one.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <map>
 #include <string>
+#include <vector>
 
 #include <beltrami/beltrami.h>
 
@@ -21,7 +23,7 @@ int main(int argc, char** argv) {
     using namespace beltrami;
     const int first = argc > 1 ? std::stoi(argv[1]) : 0, count = argc > 2 ? std::stoi(argv[2]) : 200;
     std::map<std::string, int> refused;
-    int solved = 0, broken = 0, flipped = 0, unfinished = 0;
+    int solved = 0, broken = 0, flipped = 0, unfinished = 0, other_class = 0;
     double seconds = 0;
     for (int seed = first; seed < first + count; ++seed) {
         const bench::Problem problem = bench::random_problem(seed);
@@ -34,7 +36,12 @@ int main(int argc, char** argv) {
             const bench::MapQuality quality = bench::map_quality(problem, found.map);
             flipped += quality.flipped > 0;
             unfinished += found.termination != Termination::converged;
-            const bool bad = quality.flipped > 0 || found.K_lower > K_witness * (1 + 1e-6) || quality.pin_error > 1e-9;
+            const auto turns =
+                quality.flipped > 0 ? std::vector<int>{} : bench::relative_turns(problem, found.map, *problem.witness);
+            const bool turned = std::any_of(turns.begin(), turns.end(), [](int t) { return t != 0; });
+            other_class += turned;
+            const bool above = !turned && found.K_lower > K_witness * (1 + 1e-6);
+            const bool bad = quality.flipped > 0 || above || quality.pin_error > 1e-9;
             broken += bad;
             if (bad)
                 fmt::print(
@@ -49,8 +56,10 @@ int main(int argc, char** argv) {
         }
         std::fflush(stdout);
     }
-    fmt::print("{} problems: {} solved in {:.1f} s, {} broken, {} with flips, {} at the iteration limit\n", count,
-               solved, seconds, broken, flipped, unfinished);
+    fmt::print(
+        "{} problems: {} solved in {:.1f} s, {} broken, {} with flips, {} at the iteration limit, {} with other "
+        "turns than the witness\n",
+        count, solved, seconds, broken, flipped, unfinished, other_class);
     for (const auto& [reason, times] : refused) fmt::print("refused {} times: {}\n", times, reason);
     return broken > 0 ? 1 : 0;
 }
