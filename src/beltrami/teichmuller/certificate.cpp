@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <beltrami/conformal/averaged_coefficient.h>
 #include <beltrami/teichmuller/differential_quadrature.h>
 
 namespace beltrami {
@@ -11,6 +12,8 @@ namespace {
 
 /// A smaller part of ∫|φ| that the quadrature leaves unresolved does not count.
 constexpr double kUnresolved = 1e-6;
+/// |μ| of averages is held at this.
+constexpr double kMostAveraged = 0.995;
 
 }  // namespace
 
@@ -50,6 +53,22 @@ ReichStrebel reich_strebel(const Surface& source, const Chart& chart, const Diff
         pairing += 2 * std::real(mu[s] * phi[s]) / (1 - size);
     }
     return reich_strebel_of(total, norm, pairing, unresolved);
+}
+
+ReichStrebel averaged_estimate(const Surface& source, const Chart& chart, const Eigen::VectorXcd& phi,
+                               const Eigen::VectorXcd& map) {
+    const Eigen::VectorXcd mu = averaged_coefficient(source, chart, phi, map);
+    double total = 0, norm = 0, pairing = 0;
+    for (Eigen::Index s = 0; s < mu.size(); ++s) {
+        const double size = std::abs(phi[s]);
+        if (chart.excluded[s] || !(size > 0) || !std::isfinite(std::norm(mu[s]))) continue;
+        const Complex held = mu[s] * (kMostAveraged / std::max(std::abs(mu[s]), kMostAveraged));
+        const double weight = source.operators.weights[s] * size, square = std::norm(held);
+        total += weight;
+        norm += weight * (1 + square) / (1 - square);
+        pairing += source.operators.weights[s] * 2 * std::real(held * phi[s]) / (1 - square);
+    }
+    return reich_strebel_of(total, norm, pairing, 0);
 }
 
 bool proves(const Surface& source, const Chart& chart) {

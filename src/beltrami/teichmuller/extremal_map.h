@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <beltrami/maps/boundary_condition.h>
+#include <beltrami/maps/boundary_corners.h>
 #include <beltrami/maps/homotopy.h>
 #include <beltrami/maps/prescribed_split.h>
 #include <beltrami/operators/distortion.h>
@@ -30,6 +31,9 @@ struct ExtremalOptions {
     /// Split edges and faces that the prescribed vertices nail down (prescribed_split.h): no solver can repair them.
     bool split_prescribed = true;
     bool remove_folds = true;  ///< finish with a fold-free solve where faces are flipped
+    /// Midpoint subdivisions of the mesh for a bound by piecewise quadratic maps (sharpened_bound.h), which is far
+    /// better where K is large or the mesh coarse. Empty: 0 from k = .8 on, none below; negative: never.
+    std::optional<int> sharpen;
     /// Called once per iteration with its number and k; returning false cancels (Error cancelled).
     std::function<bool(int iteration, double k)> progress;
 
@@ -40,7 +44,13 @@ struct ExtremalOptions {
 /// The part of the options that the iteration takes.
 HamiltonIteration::Options iteration_options(const ExtremalOptions& options);
 
-enum class Termination { converged, iteration_limit };
+enum class Termination {
+    converged,        ///< k and φ have settled
+    iteration_limit,  ///< max_iterations
+    /// Settled, but at a boundary vertex the boundary values alone force a larger dilatation than the K found: the
+    /// extremal map is not of Teichmüller type and not unique.
+    not_teichmuller,
+};
 const char* to_string(Termination);
 
 /// The map of least dilatation among all with the same boundary values (of the same homotopy class), and how good it
@@ -53,14 +63,17 @@ struct ExtremalMap {
     Eigen::VectorXcd harmonic;  ///< #V the harmonic start
     Distortion distortion;      ///< of map
     /// An estimate of k* and K*: √(I⁺/I⁻) = (1+k)/(1−k) for the map and the φ of its c-step, with the quadrature of the
-    /// bounds.
+    /// bounds; where k is large, of a better map (solution_bounds.h).
     double k = 0, K = 1;
     double K_lower = 1;  ///< largest Reich-Strebel bound; 1 if there is none
     double K_max = 0;    ///< largest K of a face; infinite if faces are flipped or collapsed
     std::vector<Bound> bounds;
-    std::optional<SplitProblem> split;  ///< the mesh that was mapped, if it is not the source itself
-    HomotopyClass homotopy;             ///< of map
-    double boundary_residual = 0;       ///< largest distance of a prescribed vertex from its image
+    std::optional<SplitProblem> split;    ///< the mesh that was mapped, if it is not the source itself
+    HomotopyClass homotopy;               ///< of map
+    std::vector<BoundaryCorner> corners;  ///< of source and boundary values, by decreasing significance
+    /// The corner with the largest bound on K (of the limiting smooth data, noise discounted), if there is one.
+    std::optional<BoundaryCorner> sharpest;
+    double boundary_residual = 0;  ///< largest distance of a prescribed vertex from its image
     Termination termination = Termination::converged;
     int iterations = 0;          ///< linear solves after the harmonic one
     int factorizations = 0;      ///< of #V×#V systems and larger, chart included

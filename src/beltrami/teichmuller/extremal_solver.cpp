@@ -13,6 +13,7 @@
 #include <beltrami/mesh/error.h>
 #include <beltrami/teichmuller/coarse_start.h>
 #include <beltrami/teichmuller/problem.h>
+#include <beltrami/teichmuller/solution_bounds.h>
 
 namespace beltrami {
 
@@ -37,6 +38,9 @@ double deviation(const Operators& operators, const Eigen::VectorXcd& mu, const E
 
 /// Where the deviation exceeds this part of k, k is no more than a rough estimate.
 constexpr double kRough = 0.6;
+
+/// By so much a corner's bound must exceed K.
+constexpr double kCornerMargin = 0.01;
 
 /// Prescribed vertices of @p map put in their places.
 void prescribe(Eigen::VectorXcd& map, const BoundaryCondition& boundary) {
@@ -220,24 +224,38 @@ ExtremalMap ExtremalSolver::Implementation::record() const {
         result.boundary_residual =
             std::max(result.boundary_residual, std::abs(map[boundary.vertices[i]] - boundary.images[i]));
 
-    result.k = step.k;
-    result.K = (1 + step.k) / (1 - step.k);
     result.K_max =
         result.distortion.flipped.empty() ? dilatation(result.distortion.max) : std::numeric_limits<double>::infinity();
-    const ReichStrebel integrals =
-        reich_strebel(source, problem.chart(), *state.space, step.direction, result.distortion.mu);
-    if (integrals.valid) {
-        result.K = integrals.estimate;
-        result.k = (result.K - 1) / (result.K + 1);
-        result.K_lower = std::max(1.0, integrals.lower);
-        result.bounds.push_back({"reich_strebel", result.K_lower, Bound::Of::extremal, problem.chart().exact});
-        result.bounds.push_back({"reich_strebel_estimate", integrals.estimate, Bound::Of::extremal, false});
+    const SolutionBounds bounds =
+        solution_bounds({source, boundary, problem.chart(), *state.space, step.direction, step.phi, step.k, map,
+                         result.distortion, paths, options.outer_loop, options.turns},
+                        options.sharpen);
+    result.k = bounds.k;
+    result.K = bounds.K;
+    result.K_lower = bounds.K_lower;
+    result.bounds = bounds.bounds;
+    result.factorizations += bounds.factorizations;
+    result.corners = corners;
+    for (const BoundaryCorner& corner : corners)
+        if (corner.safe_bound > 1 && (!result.sharpest || corner.safe_bound > result.sharpest->safe_bound))
+            result.sharpest = corner;
+    if (result.sharpest) {
+        result.bounds.push_back({"corner", result.sharpest->safe_bound, Bound::Of::extremal, false});
+        if (converged && result.sharpest->safe_bound > (1 + kCornerMargin) * result.K) {
+            result.termination = Termination::not_teichmuller;
+            result.warnings.push_back("at vertex " + std::to_string(result.sharpest->vertex) +
+                                      " the boundary values alone force K ≥ " +
+                                      std::to_string(result.sharpest->safe_bound) +
+                                      ": the extremal map is not of Teichmüller type; gentler speed there "
+                                      "(--speed conformal) or other boundary values would lower K");
+        }
     }
     result.bounds.push_back({"mesh_harmonic", mesh_harmonic_bound(operators, result.harmonic), Bound::Of::mesh, true});
     if (std::isfinite(result.K_max)) result.bounds.push_back({"attained", result.K_max, Bound::Of::extremal, true});
     if (!result.distortion.flipped.empty())
         result.warnings.push_back("flipped faces in the result: " + std::to_string(result.distortion.flipped.size()) +
-                                  "; it is not one-to-one there and no lower bound can be given");
+                                  "; it is not one-to-one there" +
+                                  (result.K_lower > 1 ? "" : " and no lower bound can be given"));
     if (result.termination == Termination::iteration_limit)
         result.warnings.push_back("stopped after " + std::to_string(result.iterations) +
                                   " iterations before k and φ settled");
