@@ -5,6 +5,7 @@
 
 #include <beltrami/conformal/averaged_coefficient.h>
 #include <beltrami/teichmuller/differential_quadrature.h>
+#include <beltrami/teichmuller/refined_problem.h>
 
 namespace beltrami {
 
@@ -72,10 +73,7 @@ ReichStrebel averaged_estimate(const Surface& source, const Chart& chart, const 
 }
 
 bool proves(const Surface& source, const Chart& chart) {
-    if (!chart.exact || chart.excluded_faces > 0) return false;
-    for (int f = 0; f < source.mesh.face_count(); ++f)
-        if (source.mesh.faces.degree(f) != 3) return false;
-    return true;
+    return chart.exact && chart.excluded_faces == 0 && all_triangles(source.mesh);
 }
 
 double mesh_harmonic_bound(const Operators& source, const Eigen::VectorXcd& harmonic) {

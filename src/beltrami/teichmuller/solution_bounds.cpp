@@ -43,17 +43,18 @@ SolutionBounds solution_bounds(const Solution& s, std::optional<int> subdivision
 
     SharpenedBound sharp;
     SameClass same;
-    if (subdivisions && *subdivisions >= 0 && s.boundary.lines.empty()) {
+    // On a finer mesh the map may fold where it does not on the mesh itself.
+    for (int n = s.boundary.lines.empty() ? subdivisions.value_or(-1) : -1; n >= 0 && !sharp.integrals.valid; --n) {
         SharpenedBoundOptions options;
-        options.subdivisions = *subdivisions;
+        options.subdivisions = n;
         try {
             sharp = sharpened_bound(s.source, s.boundary, s.chart, s.space, s.coefficients, s.k, options);
         } catch (const Error& error) {
             if (error.cause() != Cause::not_solved && error.cause() != Cause::bad_mesh) throw;
         }
-        result.factorizations = sharp.factorizations;
-        if (sharp.integrals.valid) same = same_class(s, sharp.map);
+        result.factorizations += sharp.factorizations;
     }
+    if (sharp.integrals.valid) same = same_class(s, sharp.map);
     const bool sharpened = sharp.integrals.valid && same.same;
     double lower = 1, estimate = (1 + s.k) / (1 - s.k);
     bool rigorous = false;
