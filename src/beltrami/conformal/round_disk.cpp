@@ -7,6 +7,7 @@
 #include <optional>
 
 #include <beltrami/conformal/flatten.h>
+#include <beltrami/conformal/greens_function.h>
 #include <beltrami/maps/beltrami_solver.h>
 #include <beltrami/mesh/planar.h>
 
@@ -41,27 +42,10 @@ std::pair<Complex, double> boundary_circle(const Surface& source, const Eigen::V
     return {centre, radius};
 }
 
-/// What makes the chart's two linear solves: extension of boundary values, and the conjugate function.
-struct HarmonicFunctions {
-    const Surface& source;
-    const BeltramiSolver& dirichlet;
-
-    /// The real harmonic function with the values of @p boundary on the boundary.
-    Eigen::VectorXd extend(const Eigen::VectorXd& boundary) const {
-        return dirichlet.solve(boundary.cast<Complex>()).real();
-    }
-
-    /// h + i h* with ∂̄(h + i h*) least and h* = 0 at the first boundary vertex.
-    Eigen::VectorXcd with_conjugate(const Eigen::VectorXd& h) const {
-        std::vector<Freedom> freedom(h.size(), Freedom::fixed);
-        for (const int v : source.mesh.faces.vertices()) freedom[v] = Freedom::sliding;
-        freedom[source.topology.boundary_loops[0][0]] = Freedom::fixed;
-        BeltramiSolver conjugate(source, freedom, 1);
-        conjugate.factorize(Eigen::VectorXcd::Zero(source.operators.sample_count()),
-                            Eigen::VectorXcd::Constant(h.size(), Complex(0, 1)));
-        return conjugate.solve(h.cast<Complex>());
-    }
-};
+/// The real harmonic function with the values of @p boundary on the boundary.
+Eigen::VectorXd harmonic_extension(const BeltramiSolver& dirichlet, const Eigen::VectorXd& boundary) {
+    return dirichlet.solve(boundary.cast<Complex>()).real();
+}
 
 /// A solver that fixes exactly the boundary, factorised for harmonic maps.
 BeltramiSolver dirichlet_solver(const Surface& source) {
@@ -73,14 +57,16 @@ BeltramiSolver dirichlet_solver(const Surface& source) {
     return solver;
 }
 
+/// From so many samples on flattening a patch instead of the whole surface saves much (docs/performance.md).
+constexpr int kGreensFunctionFrom = 8'000;
 /// The tolerance to which a surface is flattened for a chart, whose own discretisation error is far larger.
 constexpr double kFlattenTolerance = 1e-8;
 
 /// A point deep inside the flattened surface: the inner vertex where the solution of −Δψ = 1, ψ = 0 on the boundary, is
 /// largest; without inner vertices, the middle of the largest face.
-Complex deep_point(const Surface& source, const HarmonicFunctions& harmonic, const Eigen::VectorXcd& w) {
+Complex deep_point(const Surface& source, const BeltramiSolver& dirichlet, const Eigen::VectorXcd& w) {
     const Eigen::VectorXd squares = w.cwiseAbs2();
-    const Eigen::VectorXd depth = harmonic.extend(squares) - squares;  // 4ψ, as Δ|w|² = 4
+    const Eigen::VectorXd depth = harmonic_extension(dirichlet, squares) - squares;  // 4ψ, as Δ|w|² = 4
     int deepest = -1;
     for (const int v : source.mesh.faces.vertices())
         if (!source.topology.on_boundary[v] && (deepest < 0 || depth[v] > depth[deepest])) deepest = v;
@@ -90,15 +76,6 @@ Complex deep_point(const Surface& source, const HarmonicFunctions& harmonic, con
     const auto face = source.operators.stencil(static_cast<int>(largest - source.operators.weights.begin()));
     for (const int v : face) middle += w[v] / static_cast<double>(face.size());
     return middle;
-}
-
-std::vector<double> vertex_areas(const Operators& operators) {
-    std::vector<double> area(operators.vertex_count, 0.0);
-    for (int s = 0; s < operators.sample_count(); ++s) {
-        const auto stencil = operators.stencil(s);
-        for (const int v : stencil) area[v] += operators.weights[s] / static_cast<double>(stencil.size());
-    }
-    return area;
 }
 
 void slide(const Surface& source, Eigen::VectorXcd& g, const RoundDiskOptions& options, int* factorizations) {
@@ -171,42 +148,50 @@ void centre_in_disk(Eigen::VectorXcd& points, const std::vector<double>& weights
 
 namespace {
 
+/// g = (w − p) exp(h + i h*), h = −log|w − p| on the boundary, where w is the plane or flattens the whole surface.
+Eigen::VectorXcd disk_map_by_flattening(const Surface& source, const BeltramiSolver& dirichlet, int* factorizations) {
+    Eigen::VectorXcd w;
+    if (source.in_plane()) {
+        w = planar_coordinates(source.mesh);
+    } else {
+        FlattenOptions options;
+        options.tolerance = kFlattenTolerance;
+        const Flattening flat =
+            source.metric ? flatten(source.mesh, *source.metric, options) : flatten(source.mesh, options);
+        w = flat.positions;
+        *factorizations += flat.factorizations;
+    }
+    const Complex pole = deep_point(source, dirichlet, w);
+    Eigen::VectorXd real = Eigen::VectorXd::Zero(w.size());
+    for (const int v : source.topology.boundary_loops[0]) real[v] = -std::log(std::abs(w[v] - pole));
+    const Eigen::VectorXcd h = with_conjugate(source, harmonic_extension(dirichlet, real), {}, factorizations);
+    Eigen::VectorXcd g(w.size());
+    for (Eigen::Index v = 0; v < g.size(); ++v) g[v] = (w[v] - pole) * std::exp(h[v]);
+    return g;
+}
+
 /// @param dirichlet may be null
 Chart compute_chart(const Surface& source, const BeltramiSolver* dirichlet, const RoundDiskOptions& options) {
     require_disk(source);
-    const Topology& topology = source.topology;
-    const int n = source.mesh.vertex_count();
-    Eigen::VectorXcd w(n);
     int factorizations = 0;
     if (source.in_plane()) {
-        w = planar_coordinates(source.mesh);
+        const Eigen::VectorXcd w = planar_coordinates(source.mesh);
         const auto [centre, radius] = boundary_circle(source, w);
         if (radius > 0) return make_chart(source, (w.array() - centre) / radius, true);
-    } else {
-        FlattenOptions flatten_options;
-        flatten_options.tolerance = kFlattenTolerance;
-        const Flattening flat = source.metric ? flatten(source.mesh, *source.metric, flatten_options)
-                                              : flatten(source.mesh, flatten_options);
-        w = flat.positions;
-        factorizations += flat.factorizations;
     }
-
-    const auto& loop = topology.boundary_loops[0];
     std::optional<BeltramiSolver> own;
     if (!dirichlet) {
         dirichlet = &own.emplace(dirichlet_solver(source));
         ++factorizations;
     }
-    const HarmonicFunctions harmonic{source, *dirichlet};
-    const Complex pole = deep_point(source, harmonic, w);
-    Eigen::VectorXd real = Eigen::VectorXd::Zero(n);
-    for (const int v : loop) real[v] = -std::log(std::abs(w[v] - pole));
-    const Eigen::VectorXcd h = harmonic.with_conjugate(harmonic.extend(real));
-    ++factorizations;
-    Eigen::VectorXcd g(n);
-    for (int v = 0; v < n; ++v) g[v] = (w[v] - pole) * std::exp(h[v]);
-    for (const int v : loop) g[v] /= std::abs(g[v]);
-    centre_in_disk(g, vertex_areas(source.operators));
+    Eigen::VectorXcd g;
+    if (!source.in_plane() && source.operators.sample_count() >= kGreensFunctionFrom)
+        if (auto by_greens_function = disk_map_by_greens_function(source, *dirichlet, &factorizations))
+            g = std::move(*by_greens_function);
+    if (g.size() == 0) g = disk_map_by_flattening(source, *dirichlet, &factorizations);
+    for (const int v : source.topology.boundary_loops[0]) g[v] /= std::abs(g[v]);
+    const Eigen::VectorXd areas = vertex_areas(source.operators);
+    centre_in_disk(g, {areas.begin(), areas.end()});
     if (options.sliding_steps > 0) slide(source, g, options, &factorizations);
     Chart chart = make_chart(source, std::move(g), false);
     chart.factorizations = factorizations;

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+
+#include <beltrami/maps/beltrami_solver.h>
+
+namespace beltrami {
+
+/// The conformal map of a disk-like surface to the unit disk, 0 at one vertex deep inside: Riemann's construction
+/// g = exp(G + iG*) by Green's function G of the surface itself, so that nothing but a patch around the pole has to be
+/// flattened.
+///
+/// With w the patch's flattening, w(p) = 0, g = w exp(h + ih*) on the patch and exp(h + ih*) outside, where h + ih*
+/// is made to jump by log w at the rim: inside the derivatives ∂̄(h + ih*) have to vanish, outside
+/// ∂̄(h + ih*) = −∂̄λ, λ any function with the values of log w on the rim and the period 2πi around the patch. Which
+/// one is taken makes no difference: h + ih* makes up for it. h = 0 on the boundary is one solve with the Dirichlet
+/// solver (in its weak form the angle of λ gives the flux of log|w| through the rim), h* one more system.
+/// @param dirichlet      fixes exactly the boundary and is factorised for the coefficient 0
+/// @param factorizations counts those made
+/// @return #V, |g| = 1 on the boundary up to discretisation; nothing where no patch of more than a few faces fits
+///         around the deepest vertex, or its flattening turns faces over
+/// @pre one component, one boundary loop, genus 0
+std::optional<Eigen::VectorXcd> disk_map_by_greens_function(const Surface& source, const BeltramiSolver& dirichlet,
+                                                            int* factorizations);
+
+/// h + i h* with Σ A |∂̄(h + i h*) + r|² least over h*, which is 0 at the first boundary vertex.
+/// @param offset #S the r of every sample, or empty for 0
+/// @param factorizations counts those made
+Eigen::VectorXcd with_conjugate(const Surface& source, const Eigen::VectorXd& h, const Eigen::VectorXcd& offset,
+                                int* factorizations);
+
+/// The vertices' shares of the area, #V.
+Eigen::VectorXd vertex_areas(const Operators& operators);
+
+}  // namespace beltrami
