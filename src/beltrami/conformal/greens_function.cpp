@@ -85,7 +85,8 @@ Flattening flatten_patch(const Surface& source, const Submesh& patch) {
 
 /// 1, a turn of 2π, at the corners left of a path of faces from one at the pole to the boundary, 0 elsewhere: along the
 /// path the angle jumps, so its differences inside faces have the period 2π around the pole and nowhere else.
-std::vector<char> turns_at_cut(const Surface& source, int first_face) {
+/// @param exit the corner at which the boundary edge begins where the path ends
+std::vector<char> turns_at_cut(const Surface& source, int first_face, int* exit_corner) {
     const FaceList& faces = source.mesh.faces;
     std::vector<int> entered_by(faces.size(), -1);  // corner, of the face before, across whose edge the path came
     std::vector<int> queue{first_face};
@@ -109,6 +110,7 @@ std::vector<char> turns_at_cut(const Surface& source, int first_face) {
             queue.push_back(other);
         }
     }
+    *exit_corner = exit;
     std::vector<char> turns(faces.corner_count(), 0);
     for (int f = last; f != first_face; exit = entered_by[f], f = before[f]) {
         const int begin = faces.first_corner(f), degree = faces.degree(f);
@@ -129,6 +131,7 @@ struct Singular {
     Eigen::VectorXcd logarithm;  ///< #V log w on the patch, its angle less the turns at the cut; else 0
     Eigen::VectorXcd factor;     ///< #V w on the patch, else 1
     Eigen::VectorXcd offset;     ///< #S ∂̄ of the logarithm outside the patch, else 0
+    int cut_corner = -1;         ///< where the boundary edge begins along which the logarithm turns by 2πi
 };
 
 std::optional<Singular> singular_part(const Surface& source, int pole, const Eigen::VectorXd& depth) {
@@ -169,7 +172,7 @@ std::optional<Singular> singular_part(const Surface& source, int pole, const Eig
                 radius = std::min(radius, std::abs(result.factor[faces.vertices()[c]]));
     }
     if (start < 0 || !(radius > kLeastEdges * radius_at_pole)) return {};
-    const std::vector<char> turns = turns_at_cut(source, pole_face);
+    const std::vector<char> turns = turns_at_cut(source, pole_face, &result.cut_corner);
     const auto turn = [&](int corner) { return turns[corner] ? kTwoPi : 0.0; };
     std::vector<char> known(n, 0);
     std::vector<int> queue{start};
@@ -225,20 +228,66 @@ Eigen::VectorXd vertex_areas(const Operators& operators) {
     return area;
 }
 
-Eigen::VectorXcd with_conjugate(const Surface& source, const Eigen::VectorXd& h, const Eigen::VectorXcd& offset,
-                                int* factorizations) {
+namespace {
+
+Eigen::VectorXcd conjugate_by_system(const Surface& source, const Eigen::VectorXd& h, const Eigen::VectorXcd& offset) {
     std::vector<Freedom> freedom(h.size(), Freedom::fixed);
     for (const int v : source.mesh.faces.vertices()) freedom[v] = Freedom::sliding;
     freedom[source.topology.boundary_loops[0][0]] = Freedom::fixed;
     BeltramiSolver conjugate(source, freedom, 1);
     conjugate.factorize(Eigen::VectorXcd::Zero(source.operators.sample_count()),
                         Eigen::VectorXcd::Constant(h.size(), Complex(0, 1)));
-    ++*factorizations;
     return conjugate.solve(h.cast<Complex>(), offset);
 }
 
+Eigen::VectorXcd conjugate_by_flux(const Surface& source, const BeltramiSolver& dirichlet, const Eigen::VectorXd& h,
+                                   const Eigen::VectorXcd& offset, int cut_corner) {
+    // ∫ v dh* along the boundary = 2 Re Σ 2A conj(∂̄v)(∂̄h + r) for every v: what h, solved for inside, leaves at
+    // the boundary vertices.
+    const Operators& operators = source.operators;
+    const auto& on_boundary = source.topology.on_boundary;
+    const Eigen::VectorXcd values = h.cast<Complex>();
+    Eigen::VectorXd increase = Eigen::VectorXd::Zero(h.size());
+    for (int s = 0; s < operators.sample_count(); ++s) {
+        const auto stencil = operators.stencil(s);
+        if (std::none_of(stencil.begin(), stencil.end(), [&](int v) { return on_boundary[v]; })) continue;
+        const Complex residual = operators.derivatives(s, values)[1] + (offset.size() ? offset[s] : Complex(0));
+        for (std::size_t j = 0; j < stencil.size(); ++j)
+            increase[stencil[j]] +=
+                2 * operators.weights[s] * std::real(std::conj(operators.gradient(s)[j]) * residual);
+    }
+    const auto& loop = source.topology.boundary_loops[0];
+    const auto& lengths = source.boundary_edge_lengths[0];
+    const auto cut =
+        cut_corner < 0 ? loop.end() : std::find(loop.begin(), loop.end(), source.mesh.faces.vertices()[cut_corner]);
+    const std::size_t last_before_cut = static_cast<std::size_t>(cut - loop.begin());
+    if (cut != loop.end())  // half of the turn on either half of the edge
+        for (const std::size_t i : {last_before_cut, last_before_cut + 1})
+            increase[loop[i % loop.size()]] += 0.5 * kTwoPi;
+    // From the middle of the edge before a vertex to the middle of the edge after it; at the vertex between the two.
+    Eigen::VectorXcd boundary = values;
+    double middle = 0;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        const double before = lengths[(i + loop.size() - 1) % loop.size()], after = lengths[i];
+        const double whole = middle + increase[loop[i]] * before / (before + after);
+        boundary[loop[i]].imag(whole - (i > last_before_cut ? kTwoPi : 0.0));
+        middle += increase[loop[i]];
+    }
+    return dirichlet.solve(boundary, offset);
+}
+
+}  // namespace
+
+Eigen::VectorXcd with_conjugate(const Surface& source, const BeltramiSolver& dirichlet, ConjugateBy way,
+                                const Eigen::VectorXd& h, const Eigen::VectorXcd& offset, int cut_corner,
+                                int* factorizations) {
+    if (way == ConjugateBy::flux) return conjugate_by_flux(source, dirichlet, h, offset, cut_corner);
+    ++*factorizations;
+    return conjugate_by_system(source, h, offset);
+}
+
 std::optional<Eigen::VectorXcd> disk_map_by_greens_function(const Surface& source, const BeltramiSolver& dirichlet,
-                                                            int* factorizations) {
+                                                            ConjugateBy way, int* factorizations) {
     // −Δψ = 1, ψ = 0 on the boundary, is largest deep inside.
     const Eigen::VectorXd depth = dirichlet.solve_poisson(vertex_areas(source.operators));
     int pole = -1;
@@ -253,7 +302,8 @@ std::optional<Eigen::VectorXcd> disk_map_by_greens_function(const Surface& sourc
     if (!singular) return {};
     const Eigen::VectorXd h =
         dirichlet.solve(Eigen::VectorXcd::Zero(source.mesh.vertex_count()), singular->offset).real();
-    const Eigen::VectorXcd sum = with_conjugate(source, h, singular->offset, factorizations);
+    const Eigen::VectorXcd sum =
+        with_conjugate(source, dirichlet, way, h, singular->offset, singular->cut_corner, factorizations);
     Eigen::VectorXcd g(sum.size());
     parallel_for(0, static_cast<int>(g.size()), [&](int begin, int end) {
         for (int v = begin; v < end; ++v) g[v] = singular->factor[v] * std::exp(sum[v]);

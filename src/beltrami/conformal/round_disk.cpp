@@ -149,7 +149,8 @@ void centre_in_disk(Eigen::VectorXcd& points, const std::vector<double>& weights
 namespace {
 
 /// g = (w − p) exp(h + i h*), h = −log|w − p| on the boundary, where w is the plane or flattens the whole surface.
-Eigen::VectorXcd disk_map_by_flattening(const Surface& source, const BeltramiSolver& dirichlet, int* factorizations) {
+Eigen::VectorXcd disk_map_by_flattening(const Surface& source, const BeltramiSolver& dirichlet, ConjugateBy way,
+                                        int* factorizations) {
     Eigen::VectorXcd w;
     if (source.in_plane()) {
         w = planar_coordinates(source.mesh);
@@ -164,10 +165,19 @@ Eigen::VectorXcd disk_map_by_flattening(const Surface& source, const BeltramiSol
     const Complex pole = deep_point(source, dirichlet, w);
     Eigen::VectorXd real = Eigen::VectorXd::Zero(w.size());
     for (const int v : source.topology.boundary_loops[0]) real[v] = -std::log(std::abs(w[v] - pole));
-    const Eigen::VectorXcd h = with_conjugate(source, harmonic_extension(dirichlet, real), {}, factorizations);
+    const Eigen::VectorXcd h =
+        with_conjugate(source, dirichlet, way, harmonic_extension(dirichlet, real), {}, -1, factorizations);
     Eigen::VectorXcd g(w.size());
     for (Eigen::Index v = 0; v < g.size(); ++v) g[v] = (w[v] - pole) * std::exp(h[v]);
     return g;
+}
+
+/// 0 at a point deep inside, |g| = 1 on the boundary up to discretisation.
+Eigen::VectorXcd disk_map(const Surface& source, const BeltramiSolver& dirichlet, ConjugateBy way,
+                          int* factorizations) {
+    if (!source.in_plane() && source.operators.sample_count() >= kGreensFunctionFrom)
+        if (auto g = disk_map_by_greens_function(source, dirichlet, way, factorizations)) return std::move(*g);
+    return disk_map_by_flattening(source, dirichlet, way, factorizations);
 }
 
 /// @param dirichlet may be null
@@ -184,16 +194,21 @@ Chart compute_chart(const Surface& source, const BeltramiSolver* dirichlet, cons
         dirichlet = &own.emplace(dirichlet_solver(source));
         ++factorizations;
     }
-    Eigen::VectorXcd g;
-    if (!source.in_plane() && source.operators.sample_count() >= kGreensFunctionFrom)
-        if (auto by_greens_function = disk_map_by_greens_function(source, *dirichlet, &factorizations))
-            g = std::move(*by_greens_function);
-    if (g.size() == 0) g = disk_map_by_flattening(source, *dirichlet, &factorizations);
-    for (const int v : source.topology.boundary_loops[0]) g[v] /= std::abs(g[v]);
     const Eigen::VectorXd areas = vertex_areas(source.operators);
-    centre_in_disk(g, {areas.begin(), areas.end()});
-    if (options.sliding_steps > 0) slide(source, g, options, &factorizations);
-    Chart chart = make_chart(source, std::move(g), false);
+    const auto chart_by = [&](ConjugateBy way) {
+        Eigen::VectorXcd g = disk_map(source, *dirichlet, way, &factorizations);
+        for (const int v : source.topology.boundary_loops[0]) g[v] /= std::abs(g[v]);
+        centre_in_disk(g, {areas.begin(), areas.end()});
+        return make_chart(source, std::move(g), false);
+    };
+    Chart chart = chart_by(ConjugateBy::flux);
+    if (chart.excluded_faces > 0)
+        if (Chart other = chart_by(ConjugateBy::system); other.excluded_faces < chart.excluded_faces)
+            chart = std::move(other);
+    if (options.sliding_steps > 0) {
+        slide(source, chart.vertices, options, &factorizations);
+        chart = make_chart(source, std::move(chart.vertices), false);
+    }
     chart.factorizations = factorizations;
     return chart;
 }
