@@ -15,8 +15,9 @@ namespace {
 constexpr double kLargest = 0.9999;
 /// The c-step is solved to this part of its change in the last iteration.
 constexpr double kStepBelowChange = 1e-2;
-/// Changes of φ below this that no longer become smaller are rounding.
-constexpr double kStalledBelow = 1e-6;
+/// Changes of φ below this that do not become smaller for some iterations, while k stays, come from zeros of φ.
+constexpr double kStalledBelow = 3e-4, kStalledChangeOfK = 1e-5;
+constexpr int kStalledFor = 4;
 /// Steps taken in a preliminary space.
 constexpr int kPreliminaryIterations = 2;
 /// Acceleration begins once φ changes by less than this.
@@ -93,6 +94,7 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
 
     AndersonAcceleration anderson(options_.anderson_window);
     double change = 1, least_change = 1;
+    int since_least = 0;
     while (iterations_ < options_.max_iterations) {
         const Eigen::VectorXcd phi = coefficient_step_.values(state.direction),
                                nu = teichmueller_coefficient(state.k, phi);
@@ -114,10 +116,16 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
 
         // Where k vanishes the direction of φ means nothing. Zeros of φ that wander across samples keep its direction
         // from settling entirely.
-        const bool stalled = change < kStalledBelow && !(change < 0.5 * least_change);
-        least_change = std::min(least_change, change);
-        const bool settled = step_.converged && k_change < options_.tolerance &&
-                             (change < options_.tolerance || stalled || step_.k < options_.tolerance);
+        if (change < 0.5 * least_change) {
+            least_change = change;
+            since_least = 0;
+        } else {
+            ++since_least;
+        }
+        const bool stalled = least_change < kStalledBelow && since_least >= kStalledFor && k_change < kStalledChangeOfK;
+        const bool settled =
+            step_.converged && (stalled || (k_change < options_.tolerance &&
+                                            (change < options_.tolerance || step_.k < options_.tolerance)));
         // Growing is decided where the map is exact to rounding, which must not turn the decision: at the start
         // (above), at the first map that comes from another mesh's φ, and in the end.
         if ((from_elsewhere && options_.grow_first && iterations_ == 1) || (settled && options_.grow_last) ||
@@ -125,6 +133,7 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
             if (grow(state, mu)) {
                 anderson.reset();
                 change = least_change = 1;
+                since_least = 0;
                 state.direction = step_.direction;
                 state.k = std::min(step_.k, kLargest);
                 continue;
