@@ -14,7 +14,7 @@ namespace {
 constexpr int kEdgesPerPower = 6;
 constexpr int kLeastPower = 3, kMostPower = 16;
 /// Poles cluster towards a corner from this far, on a hole as part of its radius, to this part of an edge.
-constexpr double kReach = 1.0, kHoleReach = 0.8, kFinest = 0.25;
+constexpr double kReach = 1.0, kHoleReach = 0.8, kFinest = 0.4;
 /// A corner with fewer edges to the next one is not resolved, and gets no poles.
 constexpr int kLeastGap = 6;
 /// Samples for every function at a corner: the most significant corners come first.
