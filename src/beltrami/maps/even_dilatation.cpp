@@ -21,9 +21,10 @@ struct Stage {
     double damping;  ///< of the step; 0: none
 };
 /// The damping falls as φ and k settle; the penalty on outliers rises.
-constexpr Stage kStages[] = {
-    {5, 30, true, 0.03}, {3, 100, true, 0.01}, {5, 100, true, 0.003}, {5, 200, false, 0.003}, {8, 400, false, 0},
-};
+constexpr Stage kStages[] = {{5, 30, true, 0.03}, {3, 100, true, 0.01}, {5, 100, false, 0.003}, {5, 200, true, 0.003}};
+constexpr Stage kLastStage{8, 400, false, 0};
+/// A stage in which E moves by less than this part of it is followed by the last one.
+constexpr double kSettled = 0.02;
 /// Rings around outliers, round by round.
 constexpr int kRings[] = {3, 4, 5, 6};
 constexpr int kExpectedFactorizations = 4;
@@ -47,14 +48,20 @@ class Evening {
     const DilatationPatches& patches() const { return patches_; }
     int factorizations() const { return system_.factorization_count(); }
 
-    /// Shortened until the energy falls and nothing folds.
+    /// Shortened until the energy falls and nothing folds; may stay where it is.
     void gauss_newton(Eigen::VectorXcd& f, double damping) {
         system_.set_zero();
         for (int s = 0; s < operators_.sample_count(); ++s) {
             const auto e = spread_.element(s, 0, DilatationSpread::Derivative::size_held, damping);
             system_.add(s, e.gradient.data(), e.hessian.data());
         }
-        const Eigen::VectorXcd direction = system_.solve().direction;
+        Eigen::VectorXcd direction;
+        try {
+            direction = system_.solve().direction;
+        } catch (const Error& error) {
+            if (error.cause() != Cause::not_solved) throw;
+            return;  // sweeps go on without it
+        }
         const DilatationSpread::Value before = spread_.value(0);
         double length = 1;
         for (int halving = 0; halving <= kHalvings; ++halving, length *= 0.5) {
@@ -122,16 +129,29 @@ EvenDilatation even_dilatation(const Surface& source, const std::vector<Freedom>
         if (options.progress && !options.progress(stage, spread.value(0).energy))
             throw Error(Cause::cancelled, "cancelled after stage " + std::to_string(stage));
     };
-    for (const Stage& s : kStages) {
+    const auto run = [&](const Stage& s) {
+        double least = spread.value(0).energy, most = least;
+        const auto watch = [&] {
+            const double energy = spread.value(0).energy;
+            least = std::min(least, energy);
+            most = std::max(most, energy);
+        };
         evening.sweeps().run(spread, f, s.sweeps, s.outlier_penalty);
         result.sweeps += s.sweeps;
+        watch();
         if (s.update && coefficient_update && coefficient_update(f, result.phi, result.k)) {
             check(source, freedoms, f, result.k, result.phi);
             spread.set_coefficient(result.k, result.phi, options.anchor);
+            watch();
         }
         if (s.damping > 0) evening.gauss_newton(f, s.damping);
+        watch();
         report();
-    }
+        return most <= (1 + kSettled) * least;
+    };
+    for (const Stage& s : kStages)
+        if (run(s)) break;
+    run(kLastStage);
     for (const int rings : kRings) {
         const int steps = evening.patches().run(spread, f, rings);
         result.patch_steps += steps;
