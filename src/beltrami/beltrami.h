@@ -19,6 +19,7 @@
 #include <beltrami/maps/boundary_corners.h>
 #include <beltrami/maps/boundary_feasibility.h>
 #include <beltrami/maps/composition.h>
+#include <beltrami/maps/even_dilatation.h>
 #include <beltrami/maps/fold_free.h>
 #include <beltrami/maps/prescribed_split.h>
 #include <beltrami/mesh/cut.h>
