@@ -15,7 +15,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib import ticker
 from matplotlib.collections import PolyCollection
-from PIL import Image
+from PIL import Image, ImageChops
 
 MOST_BYTES = 80_000
 FLIPPED = (0.85, 0.1, 0.1, 1.0)
@@ -89,7 +89,7 @@ def draw_map(axes, panel, load):
     width = 0.3 if len(polygons) < 2000 else 0.0
     # Faces also drawn as thin lines of their own colour: no seams between them.
     axes.add_collection(PolyCollection(polygons, facecolors=colours[order],
-                                       edgecolors=(0, 0, 0, 0.25) if width else colours[order],
+                                       edgecolors=(0, 0, 0, 0.4) if width else colours[order],
                                        linewidths=width or 0.3))
     frame(axes, points)
     return panel["max"]
@@ -106,15 +106,30 @@ def frame(axes, points):
 
 def draw_grid(axes, panel, load):
     data = load(panel["data"])
-    source = data["space"][data["triangles"], :2].mean(1)
+    pixels = 2 * int(PANEL * DPI)
+    low, size = data["plane"].min(0), np.ptp(data["plane"], axis=0).max()
+    screen = (data["plane"] - low) / size * (pixels - 20) + 10
+    # Flipped faces lie in front.
+    depth = np.zeros(len(screen))
+    depth[data["triangles"][data["mu"] >= 1]] = 1
+    face, _, bary = rasterise(screen, depth, data["triangles"], pixels)
+    seen = face >= 0
+    source = np.einsum("pi,pij->pj", bary[seen], data["space"][data["triangles"][face[seen]], :2])
     sector = 2 * np.pi / 24
     parity = np.floor(np.arctan2(source[:, 1], source[:, 0]) / sector)
     parity += np.floor(np.log(np.hypot(source[:, 0], source[:, 1])) / sector)
     colours = np.where(parity[:, None] % 2 == 1, CHECKER[0], CHECKER[1])
-    colours[data["mu"] >= 1] = FLIPPED[:3]
-    axes.add_collection(PolyCollection(data["plane"][data["triangles"]], facecolors=colours, edgecolors=colours,
-                                       linewidths=0.3))
-    frame(axes, data["plane"])
+    colours[data["mu"][face[seen]] >= 1] = FLIPPED[:3]
+    picture = np.ones((pixels, pixels, 3))
+    picture[seen] = colours
+    axes.imshow(halved(picture), origin="lower", interpolation="none")
+    axes.set_axis_off()
+
+
+def halved(picture):
+    """Each pixel the mean of four."""
+    rows, columns = picture.shape[0] // 2, picture.shape[1] // 2
+    return picture.reshape(rows, 2, columns, 2, 3).mean((1, 3))
 
 
 def draw_histogram(axes, panel, load):
@@ -216,21 +231,31 @@ def draw_surface(axes, panel, load):
                     picture[max(y - 1, 0):y + 2, max(x - 1, 0):x + 2] = (0.1, 0.1, 0.1)
     rows = np.flatnonzero(seen.any(1))
     picture = picture[max(rows[0] // 2 * 2 - 8, 0):rows[-1] // 2 * 2 + 10]
-    picture = picture.reshape(len(picture) // 2, 2, pixels // 2, 2, 3).mean((1, 3))
-    axes.imshow(picture, origin="lower", interpolation="none")
+    axes.imshow(halved(picture), origin="lower", interpolation="none")
     axes.set_axis_off()
 
 
 def fixed_palette():
-    """256 colours of flat pictures: the scale, flipped red, greys and the lines of histograms, each fading to white."""
-    colours = [c[:3] for c in matplotlib.colormaps["viridis"](np.linspace(0, 1, 128))]
-    colours += [(g, g, g) for g in np.linspace(0, 1, 48)]
+    """Colours of flat pictures: the scale, darker for edges; greys; flipped red and the lines of histograms, fading."""
+    scale = matplotlib.colormaps["viridis"]
+    colours = [c[:3] for c in scale(np.linspace(0, 1, 96))] + [0.7 * c[:3] for c in scale(np.linspace(0, 1, 48))]
+    colours += [(g, g, g) for g in np.linspace(0, 1, 32)]
     lines = [matplotlib.colors.to_rgb(f"C{i}") for i in range(8)]
     for c, steps in [(np.array(FLIPPED[:3]), 8)] + [(np.array(c), 6) for c in lines + list(CHECKER)]:
         colours += [tuple(c + (1 - c) * t) for t in np.linspace(0, 1, steps, endpoint=False)]
-    image = Image.new("P", (1, 1))
-    image.putpalette([int(round(255 * x)) for c in colours[:256] for x in c])
-    return image
+    return np.array([[int(round(255 * x)) for x in c] for c in colours[:256]])
+
+
+def with_palette(image, palette):
+    """The image in the nearest colours of the palette. (PIL's own search is not exact and turns white to cream.)"""
+    pixels = np.asarray(image).reshape(-1, 3).astype(np.int64)
+    colours, index = np.unique(pixels @ [65536, 256, 1], return_inverse=True)
+    colours = np.stack([colours >> 16, colours >> 8 & 255, colours & 255], 1)
+    nearest = np.concatenate([((part[:, None] - palette[None]) ** 2).sum(2).argmin(1)
+                              for part in np.array_split(colours, max(1, len(colours) // 4096))])
+    result = Image.fromarray(nearest[index].reshape(image.size[::-1]).astype(np.uint8), "P")
+    result.putpalette(palette.astype(np.uint8).ravel().tolist())
+    return result
 
 
 def save(figure, path, flat):
@@ -239,12 +264,14 @@ def save(figure, path, flat):
     figure.savefig(buffer, format="png", dpi=DPI)
     plt.close(figure)
     full = Image.open(buffer).convert("RGB")
+    left, top, right, bottom = ImageChops.difference(full, Image.new("RGB", full.size, "white")).getbbox()
+    full = full.crop((max(left - 6, 0), max(top - 6, 0), min(right + 6, full.width), min(bottom + 6, full.height)))
     for scale in (1, 0.85, 0.7, 0.55, 0.4):
         image = full if scale == 1 else full.resize([int(scale * s) for s in full.size], Image.LANCZOS)
         for count in (256,) if flat else (256, 128):
             packed = io.BytesIO()
             if flat:
-                reduced = image.quantize(palette=fixed_palette(), dither=Image.Dither.NONE)
+                reduced = with_palette(image, fixed_palette())
             else:
                 reduced = image.quantize(count, dither=Image.Dither.NONE)
             reduced.save(packed, "PNG", optimize=True)

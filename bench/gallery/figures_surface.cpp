@@ -25,7 +25,9 @@ struct Comparison {
     void run(const std::vector<std::string>& methods) {
         const Surface surface(problem.mesh);
         Table table{problem.statement, usual_head("method"), {}};
-        Picture flat{name, problem.statement + ".", {}, 4}, views{name + "_surface", "On the surface.", {}, 4};
+        Picture flat{name, problem.statement + ".", {}, 4}, views{name + "_texture", "", {}, 4};
+        views.caption =
+            surface.in_plane() ? "The image of a polar chessboard." : "A chessboard of the plane on the surface.";
         std::vector<std::pair<std::string, std::string>> lines;
         auto edges = problem.highlights;
         for (const FeatureCurve& curve : problem.features) edges.push_back(curve.vertices);
@@ -36,7 +38,10 @@ struct Comparison {
             const std::string label = method + ": " + std::to_string(solved.distortion.flipped.size()) + " flips";
             lines.push_back({method, output.write(name + "_" + method, surface, solved)});
             flat.panels.push_back(map_panel(lines.back().second, label, max_mu));
-            if (surface.in_plane()) continue;
+            if (surface.in_plane()) {
+                views.panels.push_back(grid_panel(lines.back().second, method));
+                continue;
+            }
             views.panels.push_back(
                 surface_panel(lines.back().second, method, "checker", azimuth, elevation, squares, max_mu, edges));
         }

@@ -57,7 +57,8 @@ std::string section(const std::string& name, const Figure& figure) {
     }
     for (const std::string& remark : figure.remarks) text += remark + "\n\n";
     for (const Picture& picture : figure.pictures)
-        text += "![" + picture.caption + "](gallery/" + picture.name + ".png)\n\n" + picture.caption + "\n\n";
+        if (!picture.panels.empty())
+            text += "![" + picture.caption + "](gallery/" + picture.name + ".png)\n\n" + picture.caption + "\n\n";
     return text;
 }
 
@@ -89,7 +90,9 @@ int main(int argc, char** argv) {
             const Figure figure = entry.make(output);
             sections[entry.name] = section(entry.name, figure);
             for (const Picture& picture : figure.pictures)
-                pictures.push_back({{"name", picture.name}, {"columns", picture.columns}, {"panels", picture.panels}});
+                if (!picture.panels.empty())
+                    pictures.push_back(
+                        {{"name", picture.name}, {"columns", picture.columns}, {"panels", picture.panels}});
         }
         std::ofstream(output.folder() / "pictures.json") << pictures.dump(1) << "\n";
         std::ofstream page(argv[2]);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <beltrami/generate/predicates.h>
 #include <beltrami/mesh/polygon.h>
@@ -117,6 +118,61 @@ MapQuality map_quality(const Problem& problem, const Eigen::VectorXcd& map) {
     for (std::size_t i = 0; i < problem.boundary.vertices.size(); ++i)
         result.pin_error =
             std::max(result.pin_error, std::abs(map[problem.boundary.vertices[i]] - problem.boundary.images[i]));
+    return result;
+}
+
+namespace {
+
+/// A point inside a simple polygon: the middle of its two leftmost crossings with a horizontal line.
+Complex inside_point(const std::vector<Complex>& polygon) {
+    std::vector<double> heights;
+    for (const Complex z : polygon) heights.push_back(z.imag());
+    std::sort(heights.begin(), heights.end());
+    // Through the widest gap of the corners' heights.
+    std::size_t widest = 0;
+    for (std::size_t i = 0; i + 1 < heights.size(); ++i)
+        if (heights[i + 1] - heights[i] > heights[widest + 1] - heights[widest]) widest = i;
+    const double y = (heights[widest] + heights[widest + 1]) / 2;
+    std::vector<double> crossings;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Complex a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+        if ((a.imag() > y) != (b.imag() > y))
+            crossings.push_back(a.real() + (y - a.imag()) / (b.imag() - a.imag()) * (b.real() - a.real()));
+    }
+    std::sort(crossings.begin(), crossings.end());
+    return {(crossings[0] + crossings[1]) / 2, y};
+}
+
+}  // namespace
+
+std::vector<int> relative_turns(const Problem& problem, const Eigen::VectorXcd& map, const Eigen::VectorXcd& other) {
+    const Topology shape = topology(problem.mesh);
+    std::vector<std::vector<int>> neighbours(problem.mesh.vertex_count());
+    for (const auto& [a, b] : shape.edges) {
+        neighbours[a].push_back(b);
+        neighbours[b].push_back(a);
+    }
+    // Paths of edges to the first vertex of the outer loop.
+    std::vector<int> next(problem.mesh.vertex_count(), -1), queue{shape.boundary_loops[0][0]};
+    next[queue[0]] = queue[0];
+    for (std::size_t i = 0; i < queue.size(); ++i)
+        for (const int v : neighbours[queue[i]])
+            if (next[v] < 0) {
+                next[v] = queue[i];
+                queue.push_back(v);
+            }
+    std::vector<int> result;
+    for (std::size_t l = 1; l < shape.boundary_loops.size(); ++l) {
+        std::vector<Complex> image;
+        for (const int v : shape.boundary_loops[l]) image.push_back(map[v]);
+        const Complex centre = inside_point(image);
+        // No edge crosses the hole, so each turns by less than half a turn about a point in it.
+        double turned = 0;
+        for (int v = shape.boundary_loops[l][0]; next[v] != v; v = next[v])
+            turned += std::arg((map[next[v]] - centre) / (map[v] - centre)) -
+                      std::arg((other[next[v]] - centre) / (other[v] - centre));
+        result.push_back(static_cast<int>(std::lround(turned / (2 * std::numbers::pi))));
+    }
     return result;
 }
 

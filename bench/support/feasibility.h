@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "support/problems.h"
 
@@ -18,5 +19,11 @@ struct MapQuality {
     double pin_error = 0;  ///< largest distance of a prescribed vertex from its image
 };
 MapQuality map_quality(const Problem& problem, const Eigen::VectorXcd& map);
+
+/// By how many turns two maps with the same boundary values differ: for each hole (loop 1, 2, …) the counter-clockwise
+/// turns of the outer boundary against it under @p map, less those under @p other. All 0 for homotopic maps; with two
+/// or more holes maps of different braids can have all 0 too.
+/// @pre both maps are without flips (else an edge can cross the image of a hole)
+std::vector<int> relative_turns(const Problem& problem, const Eigen::VectorXcd& map, const Eigen::VectorXcd& other);
 
 }  // namespace beltrami::bench

@@ -134,8 +134,8 @@ Problem cad_part(double edge_length) {
             height = 1.7 - 0.6 * (s - 3);
         }
         const double between = s > 1 && s < 2 ? std::sin(pi * (s - 1)) : 0.0;
-        const double rib = 0.35 * between * std::max(0.0, t - 1.5) / 1.5;
-        const double angle = -0.42 * t * (1 + 0.08 * std::sin(2 * s)), swell = 1 + 0.06 * t * t / 3;
+        const double rib = 0.8 * between * std::max(0.0, t - 1.5) / 1.5;
+        const double angle = -0.42 * t * (1 + 0.15 * std::sin(2 * s)), swell = 1 + 0.06 * t * t / 3;
         return Eigen::Vector3d((radius + rib) * swell * std::cos(angle), (radius + rib) * swell * std::sin(angle),
                                height * (1 + 0.12 * std::sin(1.1 * t)) + 0.5 * rib);
     });

@@ -174,6 +174,33 @@ TEST(Feasibility, NamesWhatIsWrong) {
     EXPECT_NE(infeasibility(problem).find("has no image"), std::string::npos);
 }
 
+TEST(Feasibility, CountsTurns) {
+    const Problem plain = annulus_turns(0.06, 0);
+    for (const int turns : {-2, -1, 0, 1, 2}) {
+        const Problem turned = annulus_turns(0.06, turns);
+        for (std::size_t i = 0; i < turned.boundary.images.size(); ++i)
+            EXPECT_LT(std::abs(turned.boundary.images[i] - plain.boundary.images[i]), 1e-14);
+        EXPECT_EQ(turned.turns, std::vector<int>{turns});
+        EXPECT_EQ(relative_turns(turned, *turned.exact, *plain.exact), std::vector<int>{turns});
+    }
+    // One hole of many turned once more, by a twist with small support.
+    const Problem many = holes_27(0.02);
+    const Topology shape = topology(many.mesh);
+    Complex centre = 0;
+    for (const int v : shape.boundary_loops[5]) centre += (*many.witness)[v];
+    centre /= static_cast<double>(shape.boundary_loops[5].size());
+    double reach = 0;
+    for (const int v : shape.boundary_loops[5]) reach = std::max(reach, std::abs((*many.witness)[v] - centre));
+    Eigen::VectorXcd twisted = *many.witness;
+    for (Complex& z : twisted) {
+        const double t = std::clamp((std::abs(z - centre) - reach) / 0.08, 0.0, 1.0);
+        z = centre + (z - centre) * std::polar(1.0, 2 * pi * t);
+    }
+    std::vector<int> expected(27, 0);
+    expected[4] = 1;
+    EXPECT_EQ(relative_turns(many, twisted, *many.witness), expected);
+}
+
 TEST(Elliptic, CompleteIntegrals) {
     EXPECT_DOUBLE_EQ(complete_elliptic(0), pi / 2);
     EXPECT_NEAR(complete_elliptic(std::sqrt(0.5)), 1.8540746773013719, 1e-15);
