@@ -38,6 +38,10 @@ class DifferentialSpace {
     /// A larger space whose first functions are those of this one; null where the mesh resolves no more.
     virtual std::unique_ptr<DifferentialSpace> refined() const = 0;
 
+    /// Whether the space is only meant for the first few iterations, in which folds open: refined() is then to be taken
+    /// whatever it does for k.
+    virtual bool preliminary() const { return false; }
+
     /// Values of every basis function: #points × size().
     Eigen::MatrixXcd evaluate(const ChartPoints& points) const {
         return transform() ? Eigen::MatrixXcd(generators(points) * *transform()) : generators(points);

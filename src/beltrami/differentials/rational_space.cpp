@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kFirstDegree = 8, kFirstPower = 4;
 /// Poles of one cluster, at most.
-constexpr int kPoles = 12;
+constexpr int kPoles = 8;
 /// A function of which less than this part is new is left out.
 constexpr double kDependent = 1e-5;
 /// Points worked through at a time.
@@ -28,16 +28,20 @@ std::unique_ptr<DifferentialSpace> RationalSpace::starting_space(const Singulari
     space->raise(std::min(kFirstDegree, largest_degree), std::min(kFirstPower, largest_power));
     std::vector<Generator> poles;
     for (const Complex pin : singularities.pins) poles.push_back({pin, 1.0, 1});
-    for (const auto& corner : singularities.corners)
+    space->add(std::move(poles));
+    return space;
+}
+
+void RationalSpace::add_corner_poles() {
+    std::vector<Generator> poles;
+    for (const auto& corner : family_->singularities.corners)
         for (int j = 0; j < kPoles; ++j) {
             const double distance = corner.reach * std::exp(-4 * (std::sqrt(kPoles) - std::sqrt(kPoles - j)));
             if (distance < corner.finest && j > 0) break;
-            const Complex pole = corner.vertex + distance * corner.outward;
-            poles.push_back({pole, distance, 1});
-            poles.push_back({pole, distance, 2});
+            poles.push_back({corner.vertex + distance * corner.outward, distance, 1});
         }
-    space->add(std::move(poles));
-    return space;
+    add(std::move(poles));
+    with_corners_ = true;
 }
 
 void RationalSpace::raise(int degree, int power) {
@@ -143,8 +147,10 @@ Eigen::VectorXcd RationalSpace::combination(const ChartPoints& points, const Eig
 }
 
 std::unique_ptr<DifferentialSpace> RationalSpace::refined() const {
-    if (degree_ >= family_->largest_degree && power_ >= family_->largest_power) return nullptr;
+    const bool raises = degree_ < family_->largest_degree || power_ < family_->largest_power;
+    if (!raises && !preliminary()) return nullptr;
     auto larger = std::unique_ptr<RationalSpace>(new RationalSpace(*this));
+    if (preliminary()) larger->add_corner_poles();
     larger->raise(std::min(degree_ + std::max(4, degree_ / 2), family_->largest_degree),
                   std::min(power_ + std::max(2, power_ / 2), family_->largest_power));
     return larger;

@@ -8,10 +8,12 @@
 namespace beltrami {
 
 /// Rational quadratic differentials on a domain inside the unit disk: polynomials, powers of r/(z − c) for every hole,
-/// poles r/(z − p) and (r/(z − p))² clustered towards every corner from outside (r the distance from p to the corner,
-/// falling like exp(−4(√N − √(N−j))); Gopal & Trefethen 2019 show root-exponential convergence for such poles), and a
-/// simple pole at every pinned point. Orthonormal in L² of a quadrature; functions that depend on earlier ones are left
-/// out.
+/// poles r/(z − p) clustered towards every corner from outside (r the distance from p to the corner, falling like
+/// exp(−4(√N − √(N−j))); Gopal & Trefethen 2019 show root-exponential convergence for such poles), and a simple pole at
+/// every pinned point. Orthonormal in L² of a quadrature; functions that depend on earlier ones are left out.
+///
+/// Where there are corners, the first space is preliminary and has no poles at them: functions that live on a few faces
+/// would be fitted to the folds of the start.
 class RationalSpace final : public DifferentialSpace {
   public:
     /// Points of the canonical domain that resolve the singularities, with their weights (areas).
@@ -30,6 +32,7 @@ class RationalSpace final : public DifferentialSpace {
     const Eigen::MatrixXcd* transform() const override { return &transform_; }
     Eigen::VectorXcd combination(const ChartPoints& points, const Eigen::VectorXcd& coefficients) const override;
     std::unique_ptr<DifferentialSpace> refined() const override;
+    bool preliminary() const override { return !with_corners_ && !family_->singularities.corners.empty(); }
 
   private:
     /// scale^power/(z − centre)^power; power < 0: the polynomial ((z − centre)/scale)^(−power).
@@ -47,11 +50,13 @@ class RationalSpace final : public DifferentialSpace {
     explicit RationalSpace(std::shared_ptr<const Family> family) : family_(std::move(family)) {}
     /// Appends functions and orthonormalises them against those that are there.
     void add(std::vector<Generator> more);
+    void add_corner_poles();
     /// Polynomials up to a degree, powers at the holes.
     void raise(int degree, int power);
 
     std::shared_ptr<const Family> family_;
     int degree_ = -1, power_ = 0;
+    bool with_corners_ = false;
     std::vector<Generator> generators_;
     Eigen::MatrixXcd transform_;  ///< columns of earlier functions stay as they are
 };

@@ -9,7 +9,7 @@ namespace beltrami {
 /// A statement about a dilatation K.
 struct Bound {
     enum class Of { extremal, mesh };
-    std::string kind;  ///< "reich_strebel", "reich_strebel_estimate", "mesh_harmonic", "attained"
+    std::string kind;  ///< "reich_strebel", "reich_strebel_estimate", "corner", "mesh_harmonic", "attained"
     double K;
     Of of;          ///< of K*, the dilatation of the extremal map, or of every piecewise linear map of this mesh
     bool rigorous;  ///< a proof up to floating point and quadrature; else an estimate

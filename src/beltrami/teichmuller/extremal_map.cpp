@@ -35,6 +35,8 @@ const char* to_string(Termination termination) {
             return "converged";
         case Termination::iteration_limit:
             return "iteration_limit";
+        case Termination::not_teichmuller:
+            return "not_teichmuller";
     }
     return "unknown";
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <beltrami/maps/boundary_condition.h>
+#include <beltrami/maps/boundary_corners.h>
 #include <beltrami/maps/continuation.h>
 #include <beltrami/maps/homotopy.h>
 #include <beltrami/maps/prescribed_split.h>
@@ -45,7 +46,13 @@ struct ExtremalOptions {
 /// The part of the options that the iteration takes.
 HamiltonIteration::Options iteration_options(const ExtremalOptions& options);
 
-enum class Termination { converged, iteration_limit };
+enum class Termination {
+    converged,        ///< k and φ have settled
+    iteration_limit,  ///< max_iterations
+    /// Settled, but at a boundary vertex the boundary values alone force a larger dilatation than the K found: the
+    /// extremal map is not of Teichmüller type and not unique.
+    not_teichmuller,
+};
 const char* to_string(Termination);
 
 /// The map of least dilatation among all with the same boundary values (of the same homotopy class), and how good it
@@ -63,9 +70,12 @@ struct ExtremalMap {
     double K_lower = 1;  ///< largest Reich-Strebel bound; 1 if there is none
     double K_max = 0;    ///< largest K of a face; infinite if faces are flipped or collapsed
     std::vector<Bound> bounds;
-    std::optional<SplitProblem> split;  ///< the mesh that was mapped, if it is not the source itself
-    HomotopyClass homotopy;             ///< of map
-    double boundary_residual = 0;       ///< largest distance of a prescribed vertex from its image
+    std::optional<SplitProblem> split;    ///< the mesh that was mapped, if it is not the source itself
+    HomotopyClass homotopy;               ///< of map
+    std::vector<BoundaryCorner> corners;  ///< of source and boundary values, by decreasing significance
+    /// The corner with the largest bound on K (of the limiting smooth data, noise discounted), if there is one.
+    std::optional<BoundaryCorner> sharpest;
+    double boundary_residual = 0;  ///< largest distance of a prescribed vertex from its image
     Termination termination = Termination::converged;
     int iterations = 0;          ///< linear solves after the harmonic one
     int factorizations = 0;      ///< of #V×#V systems and larger, chart included

@@ -39,6 +39,9 @@ double deviation(const Operators& operators, const Eigen::VectorXcd& mu, const E
 /// Where the deviation exceeds this part of k, k is no more than a rough estimate.
 constexpr double kRough = 0.6;
 
+/// By so much a corner's bound must exceed K.
+constexpr double kCornerMargin = 0.01;
+
 /// Prescribed vertices of @p map put in their places.
 void prescribe(Eigen::VectorXcd& map, const BoundaryCondition& boundary) {
     for (std::size_t i = 0; i < boundary.vertices.size(); ++i) map[boundary.vertices[i]] = boundary.images[i];
@@ -238,6 +241,21 @@ ExtremalMap ExtremalSolver::Implementation::record() const {
         result.K_lower = std::max(1.0, integrals.lower);
         result.bounds.push_back({"reich_strebel", result.K_lower, Bound::Of::extremal, problem.chart().exact});
         result.bounds.push_back({"reich_strebel_estimate", integrals.estimate, Bound::Of::extremal, false});
+    }
+    result.corners = corners;
+    for (const BoundaryCorner& corner : corners)
+        if (corner.safe_bound > 1 && (!result.sharpest || corner.safe_bound > result.sharpest->safe_bound))
+            result.sharpest = corner;
+    if (result.sharpest) {
+        result.bounds.push_back({"corner", result.sharpest->safe_bound, Bound::Of::extremal, false});
+        if (converged && result.sharpest->safe_bound > (1 + kCornerMargin) * result.K) {
+            result.termination = Termination::not_teichmuller;
+            result.warnings.push_back("at vertex " + std::to_string(result.sharpest->vertex) +
+                                      " the boundary values alone force K ≥ " +
+                                      std::to_string(result.sharpest->safe_bound) +
+                                      ": the extremal map is not of Teichmüller type; gentler speed there "
+                                      "(--speed conformal) or other boundary values would lower K");
+        }
     }
     result.bounds.push_back({"mesh_harmonic", mesh_harmonic_bound(operators, result.harmonic), Bound::Of::mesh, true});
     if (std::isfinite(result.K_max)) result.bounds.push_back({"attained", result.K_max, Bound::Of::extremal, true});

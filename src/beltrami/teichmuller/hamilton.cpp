@@ -15,6 +15,12 @@ namespace {
 constexpr double kLargest = 0.9999;
 /// The c-step is solved to this part of its change in the last iteration.
 constexpr double kStepBelowChange = 1e-2;
+/// Changes of φ below this that no longer become smaller are rounding.
+constexpr double kStalledBelow = 1e-6;
+/// Steps taken in a preliminary space.
+constexpr int kPreliminaryIterations = 2;
+/// Acceleration begins once φ changes by less than this.
+constexpr double kAccelerateBelow = 0.5;
 /// The f-step is solved to this part of the change that the c-step will see.
 constexpr double kSolveBelowChange = 1e-3;
 
@@ -40,9 +46,15 @@ HamiltonIteration::HamiltonIteration(const Surface& source, MapStep& map_step, C
                                      Options options)
     : source_(source), map_step_(map_step), coefficient_step_(coefficient_step), options_(std::move(options)) {}
 
-/// Takes larger spaces while they raise k noticeably; returns whether any did.
+/// Takes larger spaces while they raise k noticeably, or instead of a preliminary one; returns whether any did.
 bool HamiltonIteration::grow(HamiltonState& state, const Eigen::VectorXcd& mu) {
     bool grown = false;
+    if (state.space->preliminary()) {
+        state.space = state.space->refined();
+        coefficient_step_.set_space(*state.space);
+        step_ = coefficient_step_.solve(mu, step_.direction);
+        return true;
+    }
     while (auto larger = state.space->refined()) {
         coefficient_step_.set_space(*larger);
         CoefficientStep::Result more = coefficient_step_.solve(mu, step_.direction);
@@ -71,7 +83,7 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
         coefficient_step_.set_space(*state.space);
         const Eigen::VectorXcd mu = beltrami_coefficient(source_.operators, map_);
         step_ = coefficient_step_.solve(mu, {});
-        grow(state, mu);
+        if (!state.space->preliminary()) grow(state, mu);
         state.direction = step_.direction;
         state.k = step_.k;
     } else {
@@ -80,7 +92,7 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
     history_.push_back({state.k, 1.0, state.space->size()});
 
     AndersonAcceleration anderson(options_.anderson_window);
-    double change = 1;
+    double change = 1, least_change = 1;
     while (iterations_ < options_.max_iterations) {
         const Eigen::VectorXcd phi = coefficient_step_.values(state.direction),
                                nu = teichmueller_coefficient(state.k, phi);
@@ -100,15 +112,19 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
         if (options_.progress && !options_.progress(iterations_, step_.k))
             throw Error(Cause::cancelled, "cancelled after iteration " + std::to_string(iterations_));
 
-        // Where k vanishes the direction of φ means nothing.
+        // Where k vanishes the direction of φ means nothing. Zeros of φ that wander across samples keep its direction
+        // from settling entirely.
+        const bool stalled = change < kStalledBelow && !(change < 0.5 * least_change);
+        least_change = std::min(least_change, change);
         const bool settled = step_.converged && k_change < options_.tolerance &&
-                             (change < options_.tolerance || step_.k < options_.tolerance);
+                             (change < options_.tolerance || stalled || step_.k < options_.tolerance);
         // Growing is decided where the map is exact to rounding, which must not turn the decision: at the start
         // (above), at the first map that comes from another mesh's φ, and in the end.
-        if ((from_elsewhere && options_.grow_first && iterations_ == 1) || (settled && options_.grow_last)) {
+        if ((from_elsewhere && options_.grow_first && iterations_ == 1) || (settled && options_.grow_last) ||
+            (state.space->preliminary() && iterations_ == kPreliminaryIterations)) {
             if (grow(state, mu)) {
                 anderson.reset();
-                change = 1;
+                change = least_change = 1;
                 state.direction = step_.direction;
                 state.k = std::min(step_.k, kLargest);
                 continue;
@@ -118,7 +134,7 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
             converged_ = true;
             break;
         }
-        if (options_.anderson_window > 0) {
+        if (options_.anderson_window > 0 && change < kAccelerateBelow) {
             const Eigen::VectorXd next = anderson.next(pack(state.direction, state.k), pack(step_.direction, step_.k));
             const Eigen::Index m = state.direction.size();
             state.direction.real() = next.head(m);
