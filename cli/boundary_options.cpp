@@ -18,10 +18,11 @@ constexpr std::string_view kPolygon = "polygon:";
 }  // namespace
 
 void BoundaryOptions::add_to(CLI::App& app) {
-    app.add_option("--boundary", spec_,
-                   "where the outer boundary loop goes, counter-clockwise: disk or disk:A (angle t + A sin t, t = 2π · arc "
-                   "length / total), "
-                   "rectangle:W,H, polygon:FILE (a line `x y` per point)")
+    app.add_option(
+           "--boundary", spec_,
+           "where the outer boundary loop goes, counter-clockwise: disk or disk:A (angle t + A sin t, t = 2π · arc "
+           "length / total), "
+           "rectangle:W,H, polygon:FILE (a line `x y` per point)")
         ->type_name("SPEC");
     app.add_option(
            "--corners", corners_,
@@ -104,10 +105,8 @@ void BoundaryOptions::parse_holes() {
         for (const Circle& other : circles_)
             if (other.loop == parts->first)
                 throw Error(Cause::bad_option, "--hole is given twice for loop " + std::to_string(other.loop));
-        circles_.push_back({parts->first,
-                            {(*numbers)[0], (*numbers)[1]},
-                            (*numbers)[2],
-                            numbers->size() == 4 ? (*numbers)[3] : 0.0});
+        circles_.push_back(
+            {parts->first, {(*numbers)[0], (*numbers)[1]}, (*numbers)[2], numbers->size() == 4 ? (*numbers)[3] : 0.0});
     }
 }
 
@@ -118,7 +117,8 @@ void BoundaryOptions::read_pins(const Mesh& source) {
         const int vertex = rows.indices(i, 0);
         const double x = rows.values(i, 0), y = rows.values(i, 1);
         if (std::isnan(x) && std::isnan(y))
-            throw Error(Cause::bad_boundary, pin_file_ + ": both coordinates of vertex " + std::to_string(vertex) + " are free",
+            throw Error(Cause::bad_boundary,
+                        pin_file_ + ": both coordinates of vertex " + std::to_string(vertex) + " are free",
                         "leave its line out", {vertex});
         if (std::isnan(x)) {
             pins_.pin_to_line(vertex, Complex(0, y), 1.0);
@@ -141,9 +141,8 @@ void BoundaryOptions::load(const Mesh& source) {
 }
 
 BoundaryCondition BoundaryOptions::outer_values(const Surface& source) const {
-    const BoundaryPlacement placement{start_,
-                                      speed_ == "conformal" ? BoundarySpeed::conformal : BoundarySpeed::arclength,
-                                      outer_};
+    const BoundaryPlacement placement{
+        start_, speed_ == "conformal" ? BoundarySpeed::conformal : BoundarySpeed::arclength, outer_};
     switch (target_) {
         case Target::none:
             return {};

@@ -42,11 +42,9 @@ void HomotopyOptions::load() {
         turns_of_loops_.emplace_back(parts->first, *turns);
     }
     if (waypoint_file_.empty()) return;
-    const IndexedRows rows =
-        read_indexed_rows(waypoint_file_, 2, std::numeric_limits<int>::max(), 2, "a waypoint");
+    const IndexedRows rows = read_indexed_rows(waypoint_file_, 2, std::numeric_limits<int>::max(), 2, "a waypoint");
     for (Eigen::Index i = 0; i < rows.indices.rows(); ++i)
-        waypoints_.push_back(
-            {rows.indices(i, 0), rows.indices(i, 1), Complex(rows.values(i, 0), rows.values(i, 1))});
+        waypoints_.push_back({rows.indices(i, 0), rows.indices(i, 1), Complex(rows.values(i, 0), rows.values(i, 1))});
 }
 
 void HomotopyOptions::require_hole(const Surface& source, int loop, int outer_loop, const std::string& option) const {
