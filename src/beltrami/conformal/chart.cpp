@@ -28,8 +28,8 @@ Eigen::VectorXcd at_samples(const Operators& operators, const Eigen::VectorXcd& 
     return result;
 }
 
-std::vector<double> vertex_areas(const Operators& operators) {
-    std::vector<double> area(operators.vertex_count, 0.0);
+Eigen::VectorXd vertex_areas(const Operators& operators) {
+    Eigen::VectorXd area = Eigen::VectorXd::Zero(operators.vertex_count);
     for (int s = 0; s < operators.sample_count(); ++s) {
         const auto stencil = operators.stencil(s);
         for (const int v : stencil) area[v] += operators.weights[s] / static_cast<double>(stencil.size());

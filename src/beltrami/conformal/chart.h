@@ -43,6 +43,6 @@ Chart make_chart(const Surface& source, Eigen::VectorXcd vertices, bool exact);
 Eigen::VectorXcd at_samples(const Operators& operators, const Eigen::VectorXcd& values);
 
 /// Each vertex' share of the source's area: equal parts of the samples of its faces.
-std::vector<double> vertex_areas(const Operators& operators);
+Eigen::VectorXd vertex_areas(const Operators& operators);
 
 }  // namespace beltrami
