@@ -1,112 +1,79 @@
 #include <beltrami/teichmuller/certificate.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include <beltrami/mesh/parallel.h>
+#include <beltrami/conformal/averaged_coefficient.h>
+#include <beltrami/teichmuller/differential_quadrature.h>
+#include <beltrami/teichmuller/refined_problem.h>
 
 namespace beltrami {
 
 namespace {
 
-/// |φ| varying by more than this factor over a triangle asks for a division of the triangle.
-constexpr double kVariation = 1.5;
-constexpr int kDeepest = 6;
-
-/// Triangles (in the canonical domain) with what they belong to; the quadrature works through them in rounds, so that φ
-/// is always evaluated on many points at once.
-struct Piece {
-    std::array<Complex, 3> z;
-    int sample;
-    double share;  ///< part of the sample's area
-};
-
-/// ∫φ and ∫|φ| over every sample.
-struct Integrals {
-    Eigen::VectorXcd phi;
-    Eigen::VectorXd abs_phi;
-};
-
-Integrals integrate(const Surface& source, const Chart& chart, const DifferentialSpace& space,
-                    const Eigen::VectorXcd& coefficients) {
-    const Operators& operators = source.operators;
-    const int samples = operators.sample_count();
-    Integrals result{Eigen::VectorXcd::Zero(samples), Eigen::VectorXd::Zero(samples)};
-    std::vector<Piece> pieces;
-    for (int s = 0; s < samples; ++s) {
-        if (chart.excluded[s]) continue;
-        const auto v = operators.stencil(s);
-        if (v.size() == 3) {
-            pieces.push_back({{chart.vertices[v[0]], chart.vertices[v[1]], chart.vertices[v[2]]}, s, 1.0});
-        } else {
-            const Complex z = chart.positions[s];  // a Gauss point of a quad stands for its part of the quad
-            pieces.push_back({{z, z, z}, s, 1.0});
-        }
-    }
-    for (int depth = 0; !pieces.empty(); ++depth) {
-        // Edge midpoints (exact for quadratics) and corners (to see the variation) of every piece.
-        ChartPoints points;
-        points.positions.resize(static_cast<Eigen::Index>(6 * pieces.size()));
-        points.derivatives.resize(points.positions.size());
-        for (std::size_t i = 0; i < pieces.size(); ++i)
-            for (int j = 0; j < 3; ++j) {
-                const auto at = static_cast<Eigen::Index>(6 * i + 2 * j);
-                points.positions[at] = pieces[i].z[j];
-                points.positions[at + 1] = 0.5 * (pieces[i].z[j] + pieces[i].z[(j + 1) % 3]);
-                points.derivatives[at] = points.derivatives[at + 1] = chart.derivatives[pieces[i].sample];
-            }
-        const Eigen::VectorXcd phi = space.combination(points, coefficients);
-        std::vector<Piece> divided;
-        for (std::size_t i = 0; i < pieces.size(); ++i) {
-            const auto values = phi.segment(static_cast<Eigen::Index>(6 * i), 6);
-            const Eigen::VectorXd sizes = values.cwiseAbs();
-            const Piece& p = pieces[i];
-            if (depth < kDeepest && sizes.maxCoeff() > kVariation * sizes.minCoeff()) {
-                const std::array<Complex, 3> mid{0.5 * (p.z[0] + p.z[1]), 0.5 * (p.z[1] + p.z[2]),
-                                                 0.5 * (p.z[2] + p.z[0])};
-                const double share = 0.25 * p.share;
-                divided.push_back({{p.z[0], mid[0], mid[2]}, p.sample, share});
-                divided.push_back({{mid[0], p.z[1], mid[1]}, p.sample, share});
-                divided.push_back({{mid[2], mid[1], p.z[2]}, p.sample, share});
-                divided.push_back({{mid[0], mid[1], mid[2]}, p.sample, share});
-                continue;
-            }
-            const double area = operators.weights[p.sample] * p.share / 3;
-            result.phi[p.sample] += area * (values[1] + values[3] + values[5]);
-            result.abs_phi[p.sample] += area * (sizes[1] + sizes[3] + sizes[5]);
-        }
-        pieces.swap(divided);
-    }
-    return result;
-}
+/// A smaller part of ∫|φ| that the quadrature leaves unresolved does not count.
+constexpr double kUnresolved = 1e-6;
+/// |μ| of averages is held at this.
+constexpr double kMostAveraged = 0.995;
 
 }  // namespace
 
-ReichStrebel reich_strebel(const Surface& source, const Chart& chart, const DifferentialSpace& space,
-                           const Eigen::VectorXcd& coefficients, const Eigen::VectorXcd& mu) {
+ReichStrebel reich_strebel_of(double total, double norm, double pairing, double unresolved) {
     ReichStrebel result;
-    const Integrals integrals = integrate(source, chart, space, coefficients);
-    double total = 0, norm = 0, pairing = 0;  // ∫|φ|, ∫a|φ|, Re ∫2bφ
-    for (int s = 0; s < source.operators.sample_count(); ++s) {
-        if (chart.excluded[s]) continue;
-        const double size = std::norm(mu[s]);
-        if (!(size < 1)) return result;
-        total += integrals.abs_phi[s];
-        norm += integrals.abs_phi[s] * (1 + size) / (1 - size);
-        pairing += 2 * std::real(mu[s] * integrals.phi[s]) / (1 - size);
-    }
+    if (!std::isfinite(total) || !std::isfinite(norm) || !std::isfinite(pairing) || !std::isfinite(unresolved))
+        return result;
+    result.valid = true;
+    result.resolved = unresolved <= kUnresolved;
     if (!(total > 0)) {  // φ = 0: nothing is known beyond K ≥ 1
-        result.lower = result.estimate = 1;
-        result.upper = 1;
-        result.valid = true;
+        result.lower = result.estimate = result.upper = 1;
         return result;
     }
     result.lower = total / (norm - pairing);
     result.upper = (norm + pairing) / total;
     result.estimate = std::sqrt((norm + pairing) / (norm - pairing));
-    result.valid = true;
     return result;
+}
+
+ReichStrebel reich_strebel(const Surface& source, const Chart& chart, const DifferentialSpace& space,
+                           const Eigen::VectorXcd& coefficients, const Eigen::VectorXcd& mu) {
+    const int samples = source.operators.sample_count();
+    for (int s = 0; s < samples; ++s)
+        if (!chart.excluded[s] && !(std::norm(mu[s]) < 1)) return {};
+    Eigen::VectorXcd phi = Eigen::VectorXcd::Zero(samples);    // ∫φ
+    Eigen::VectorXd abs_phi = Eigen::VectorXd::Zero(samples);  // ∫|φ|
+    const double unresolved = visit_quadrature(source, chart, space, coefficients, [&](const FacePoint& p) {
+        phi[p.sample] += p.weight * p.phi;
+        abs_phi[p.sample] += p.weight * std::abs(p.phi);
+    });
+    double total = 0, norm = 0, pairing = 0;
+    for (int s = 0; s < samples; ++s) {
+        if (chart.excluded[s]) continue;
+        const double size = std::norm(mu[s]);
+        total += abs_phi[s];
+        norm += abs_phi[s] * (1 + size) / (1 - size);
+        pairing += 2 * std::real(mu[s] * phi[s]) / (1 - size);
+    }
+    return reich_strebel_of(total, norm, pairing, unresolved);
+}
+
+ReichStrebel averaged_estimate(const Surface& source, const Chart& chart, const Eigen::VectorXcd& phi,
+                               const Eigen::VectorXcd& map) {
+    const Eigen::VectorXcd mu = averaged_coefficient(source, chart, phi, map);
+    double total = 0, norm = 0, pairing = 0;
+    for (Eigen::Index s = 0; s < mu.size(); ++s) {
+        const double size = std::abs(phi[s]);
+        if (chart.excluded[s] || !(size > 0) || !std::isfinite(std::norm(mu[s]))) continue;
+        const Complex held = mu[s] * (kMostAveraged / std::max(std::abs(mu[s]), kMostAveraged));
+        const double weight = source.operators.weights[s] * size, square = std::norm(held);
+        total += weight;
+        norm += weight * (1 + square) / (1 - square);
+        pairing += source.operators.weights[s] * 2 * std::real(held * phi[s]) / (1 - square);
+    }
+    return reich_strebel_of(total, norm, pairing, 0);
+}
+
+bool proves(const Surface& source, const Chart& chart) {
+    return chart.exact && chart.excluded_faces == 0 && all_triangles(source.mesh);
 }
 
 double mesh_harmonic_bound(const Operators& source, const Eigen::VectorXcd& harmonic) {

@@ -9,7 +9,8 @@ namespace beltrami {
 /// A statement about a dilatation K.
 struct Bound {
     enum class Of { extremal, mesh };
-    std::string kind;  ///< "reich_strebel", "reich_strebel_estimate", "corner", "mesh_harmonic", "attained"
+    std::string kind;  ///< "reich_strebel", "reich_strebel_estimate", "averaged_estimate", "corner", "mesh_harmonic",
+                       ///< "attained"
     double K;
     Of of;          ///< of K*, the dilatation of the extremal map, or of every piecewise linear map of this mesh
     bool rigorous;  ///< a proof up to floating point and quadrature; else an estimate
@@ -20,15 +21,33 @@ struct Bound {
 struct ReichStrebel {
     double lower = 0;  ///< 1/I⁻ ≤ K* for every quasiconformal f in the class and holomorphic φ
     double estimate = 0;  ///< √(I⁺/I⁻) = (1+k)/(1−k) with S of the c-step; lower ≤ estimate ≤ K of the worst face
-    double upper = 0;    ///< I⁺, which K* approaches from below at the extremal φ
-    bool valid = false;  ///< false where the map has |μ| ≥ 1 somewhere
+    double upper = 0;       ///< I⁺, which K* approaches from below at the extremal φ
+    bool valid = false;     ///< false where the map has |μ| ≥ 1 somewhere, or φ or μ is not finite
+    bool resolved = false;  ///< the quadrature has resolved the singularities of φ
 };
 
-/// Evaluates the Reich-Strebel integrals for the combination of @p space with the given coefficients. Triangles near
-/// zeros of φ are divided for the quadrature; μ is constant on a sample. Samples that the chart excludes take no part.
+/// The same from the integrals ∫|φ|, ∫|φ|(1+|μ|²)/(1−|μ|²) and 2 Re ∫μφ/(1−|μ|²).
+/// @param unresolved part of ∫|φ| of which the quadrature is not sure
+ReichStrebel reich_strebel_of(double total, double norm, double pairing, double unresolved);
+
+/// Evaluates the Reich-Strebel integrals for the combination of @p space with the given coefficients, by adaptive
+/// quadrature (differential_quadrature.h); μ is constant on a sample, which has its quarter of a quad. Samples that the
+/// chart excludes take no part.
 /// @param mu #S coefficients of the map
 ReichStrebel reich_strebel(const Surface& source, const Chart& chart, const DifferentialSpace& space,
                            const Eigen::VectorXcd& coefficients, const Eigen::VectorXcd& mu);
+
+/// The same integrals of the coefficient averaged over vertex stars (conformal/averaged_coefficient.h) at one point a
+/// sample, |μ| held at .995: where K is large `lower` estimates K* within a fraction of a per cent to a few per cent,
+/// while k of the faces is far too high. It is a bound of nothing, and its error has either sign.
+/// @param phi #S φ in the samples' frames
+/// @param map #V
+ReichStrebel averaged_estimate(const Surface& source, const Chart& chart, const Eigen::VectorXcd& phi,
+                               const Eigen::VectorXcd& map);
+
+/// Whether φ of this chart make Reich-Strebel integrals of a piecewise linear map a proof (up to floating point and
+/// quadrature): the chart is holomorphic, and all faces are triangles. On quads μ is taken at the Gauss points only.
+bool proves(const Surface& source, const Chart& chart);
 
 /// Every piecewise linear map of this mesh with these boundary values has K ≥ c + √(c²−1), with c the Dirichlet energy
 /// of the harmonic map over the area of the image, normalised to 1 for a conformal map.

@@ -36,6 +36,9 @@ struct ExtremalOptions {
     /// Split edges and faces that the prescribed vertices nail down (prescribed_split.h): no solver can repair them.
     bool split_prescribed = true;
     bool remove_folds = true;  ///< finish with a fold-free solve where faces are flipped
+    /// Midpoint subdivisions of the mesh for a bound by piecewise quadratic maps (sharpened_bound.h), which is far
+    /// better where K is large or the mesh coarse. Empty: 0 from k = .8 on, none below; negative: never.
+    std::optional<int> sharpen;
     /// Called once per iteration with its number and k; returning false cancels (Error cancelled).
     std::function<bool(int iteration, double k)> progress;
 
@@ -65,7 +68,7 @@ struct ExtremalMap {
     Eigen::VectorXcd harmonic;  ///< #V the harmonic start
     Distortion distortion;      ///< of map
     /// An estimate of k* and K*: √(I⁺/I⁻) = (1+k)/(1−k) for the map and the φ of its c-step, with the quadrature of the
-    /// bounds.
+    /// bounds; where k is large, of a better map (solution_bounds.h).
     double k = 0, K = 1;
     double K_lower = 1;  ///< largest Reich-Strebel bound; 1 if there is none
     double K_max = 0;    ///< largest K of a face; infinite if faces are flipped or collapsed

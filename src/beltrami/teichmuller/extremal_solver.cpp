@@ -14,6 +14,7 @@
 #include <beltrami/mesh/planar.h>
 #include <beltrami/teichmuller/coarse_start.h>
 #include <beltrami/teichmuller/problem.h>
+#include <beltrami/teichmuller/solution_bounds.h>
 
 namespace beltrami {
 
@@ -229,19 +230,17 @@ ExtremalMap ExtremalSolver::Implementation::record() const {
         result.boundary_residual =
             std::max(result.boundary_residual, std::abs(map[boundary.vertices[i]] - boundary.images[i]));
 
-    result.k = step.k;
-    result.K = (1 + step.k) / (1 - step.k);
     result.K_max =
         result.distortion.flipped.empty() ? dilatation(result.distortion.max) : std::numeric_limits<double>::infinity();
-    const ReichStrebel integrals =
-        reich_strebel(source, problem.chart(), *state.space, step.direction, result.distortion.mu);
-    if (integrals.valid) {
-        result.K = integrals.estimate;
-        result.k = (result.K - 1) / (result.K + 1);
-        result.K_lower = std::max(1.0, integrals.lower);
-        result.bounds.push_back({"reich_strebel", result.K_lower, Bound::Of::extremal, problem.chart().exact});
-        result.bounds.push_back({"reich_strebel_estimate", integrals.estimate, Bound::Of::extremal, false});
-    }
+    const SolutionBounds bounds =
+        solution_bounds({source, boundary, problem.chart(), *state.space, step.direction, step.phi, step.k, map,
+                         result.distortion, paths, options.outer_loop, options.turns},
+                        options.sharpen);
+    result.k = bounds.k;
+    result.K = bounds.K;
+    result.K_lower = bounds.K_lower;
+    result.bounds = bounds.bounds;
+    result.factorizations += bounds.factorizations;
     result.corners = corners;
     for (const BoundaryCorner& corner : corners)
         if (corner.safe_bound > 1 && (!result.sharpest || corner.safe_bound > result.sharpest->safe_bound))
@@ -261,7 +260,8 @@ ExtremalMap ExtremalSolver::Implementation::record() const {
     if (std::isfinite(result.K_max)) result.bounds.push_back({"attained", result.K_max, Bound::Of::extremal, true});
     if (!result.distortion.flipped.empty())
         result.warnings.push_back("flipped faces in the result: " + std::to_string(result.distortion.flipped.size()) +
-                                  "; it is not one-to-one there and no lower bound can be given");
+                                  "; it is not one-to-one there" +
+                                  (result.K_lower > 1 ? "" : " and no lower bound can be given"));
     if (result.termination == Termination::iteration_limit)
         result.warnings.push_back("stopped after " + std::to_string(result.iterations) +
                                   " iterations before k and φ settled");

@@ -1,0 +1,206 @@
+#include <beltrami/teichmuller/differential_quadrature.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <beltrami/mesh/parallel.h>
+#include <beltrami/mesh/planar.h>
+
+namespace beltrami {
+
+namespace {
+
+using Place = std::array<double, 2>;
+
+constexpr int kPoints = 6;
+struct Node {
+    std::array<double, 3> corner;  ///< weights of the corners
+    double weight;
+};
+constexpr double kA = 0.44594849091596488632, kB = 0.09157621350977074346;
+constexpr double kWeightA = 0.22338158967801146570, kWeightB = 0.10995174365532186764;
+constexpr std::array<Node, kPoints> kRule{{{{1 - 2 * kA, kA, kA}, kWeightA},
+                                           {{kA, 1 - 2 * kA, kA}, kWeightA},
+                                           {{kA, kA, 1 - 2 * kA}, kWeightA},
+                                           {{1 - 2 * kB, kB, kB}, kWeightB},
+                                           {{kB, 1 - 2 * kB, kB}, kWeightB},
+                                           {{kB, kB, 1 - 2 * kB}, kWeightB}}};
+
+/// A triangle in the coordinates of its face, with the sample to which it belongs.
+struct Piece {
+    std::array<Place, 3> corners;
+    int sample;
+    double area;  ///< in those coordinates
+};
+
+constexpr int kPiecesPerChunk = 512;
+
+Place middle(const Place& a, const Place& b) {
+    return {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
+}
+
+Place inside(const Piece& piece, const Node& node) {
+    Place p{0, 0};
+    for (int j = 0; j < 3; ++j)
+        for (int i = 0; i < 2; ++i) p[i] += node.corner[j] * piece.corners[j][i];
+    return p;
+}
+
+/// Position, derivative and area element at the places of faces.
+class Places {
+  public:
+    Places(const Surface& source, const Chart& chart) : operators_(source.operators), chart_(chart) {
+        analytic_ = chart.exact && chart.analytic && source.in_plane();
+        if (source.in_plane()) plane_ = planar_coordinates(source.mesh);
+    }
+
+    struct At {
+        Complex position, derivative;
+        double area;  ///< per area in the coordinates of the face
+    };
+    At operator()(int sample, const Place& p) const {
+        const auto v = operators_.stencil(sample);
+        At at{0.0, chart_.derivatives[sample], 2 * operators_.weights[sample]};
+        const Eigen::VectorXcd& points = analytic_ ? plane_ : chart_.vertices;
+        if (v.size() == 3) {
+            at.position = points[v[0]] + p[0] * (points[v[1]] - points[v[0]]) + p[1] * (points[v[2]] - points[v[0]]);
+        } else {
+            const double x = p[0], y = p[1];
+            at.position = (1 - x) * (1 - y) * points[v[0]] + x * (1 - y) * points[v[1]] + x * y * points[v[2]] +
+                          (1 - x) * y * points[v[3]];
+            at.area = 4 * operators_.weights[sample];
+            if (plane_.size()) {
+                const Complex along_x = (1 - y) * (plane_[v[1]] - plane_[v[0]]) + y * (plane_[v[2]] - plane_[v[3]]);
+                const Complex along_y = (1 - x) * (plane_[v[3]] - plane_[v[0]]) + x * (plane_[v[2]] - plane_[v[1]]);
+                at.area = std::imag(std::conj(along_x) * along_y);
+            }
+        }
+        if (analytic_) {
+            const auto [value, derivative] = chart_.analytic(at.position);
+            at.position = value;
+            at.derivative = derivative;
+        }
+        return at;
+    }
+
+  private:
+    const Operators& operators_;
+    const Chart& chart_;
+    bool analytic_;
+    Eigen::VectorXcd plane_;  ///< empty for a surface in space
+};
+
+std::vector<Piece> whole_faces(const Operators& operators, const Chart& chart) {
+    std::vector<Piece> pieces;
+    pieces.reserve(operators.weights.size());
+    for (int s = 0, q = 0; s < operators.sample_count(); ++s) {
+        q = s > 0 && operators.faces[s] == operators.faces[s - 1] ? q + 1 : 0;
+        if (chart.excluded[s]) continue;
+        if (operators.stencil(s).size() == 3) {
+            pieces.push_back({{{{0, 0}, {1, 0}, {0, 1}}}, s, 0.5});
+            continue;
+        }
+        // The Gauss point q is the one next to corner q.
+        const double x = q == 1 || q == 2 ? 0.5 : 0, y = q >= 2 ? 0.5 : 0;
+        const Place a{x, y}, b{x + 0.5, y}, c{x + 0.5, y + 0.5}, d{x, y + 0.5};
+        pieces.push_back({{a, b, c}, s, 0.125});
+        pieces.push_back({{a, c, d}, s, 0.125});
+    }
+    return pieces;
+}
+
+void divide(const Piece& p, std::vector<Piece>& into) {
+    const Place ab = middle(p.corners[0], p.corners[1]), bc = middle(p.corners[1], p.corners[2]),
+                ca = middle(p.corners[2], p.corners[0]);
+    const double area = 0.25 * p.area;
+    into.push_back({{p.corners[0], ab, ca}, p.sample, area});
+    into.push_back({{ab, p.corners[1], bc}, p.sample, area});
+    into.push_back({{ca, bc, p.corners[2]}, p.sample, area});
+    into.push_back({{ab, bc, ca}, p.sample, area});
+}
+
+}  // namespace
+
+double visit_quadrature(const Surface& source, const Chart& chart, const DifferentialSpace& space,
+                        const Eigen::VectorXcd& coefficients, const std::function<void(const FacePoint&)>& visit,
+                        const QuadratureOptions& options) {
+    const Places places(source, chart);
+    std::vector<Piece> pieces = whole_faces(source.operators, chart), divided;
+    double total = 0, unresolved = 0;
+    bool finite = true;
+    for (int depth = 0; !pieces.empty(); ++depth) {
+        const int count = static_cast<int>(pieces.size());
+        std::vector<FacePoint> points(static_cast<std::size_t>(kPoints) * pieces.size());
+        parallel_for(
+            0, count,
+            [&](int first, int last) {
+                ChartPoints at;
+                at.positions.resize(kPoints * (last - first));
+                at.derivatives.resize(at.positions.size());
+                for (int i = first; i < last; ++i)
+                    for (int n = 0; n < kPoints; ++n) {
+                        const Place place = inside(pieces[i], kRule[n]);
+                        const Places::At here = places(pieces[i].sample, place);
+                        at.positions[kPoints * (i - first) + n] = here.position;
+                        at.derivatives[kPoints * (i - first) + n] = here.derivative;
+                        points[static_cast<std::size_t>(kPoints) * i + n] = {
+                            pieces[i].sample, place, 0.0, pieces[i].area * kRule[n].weight * here.area};
+                    }
+                const Eigen::VectorXcd phi = space.combination(at, coefficients);
+                for (Eigen::Index j = 0; j < phi.size(); ++j)
+                    points[static_cast<std::size_t>(kPoints) * first + j].phi = phi[j];
+            },
+            kPiecesPerChunk);
+        if (depth <= options.least_depth) {
+            total = 0;
+            for (const FacePoint& p : points)
+                if (std::isfinite(std::norm(p.phi))) total += p.weight * std::abs(p.phi);
+        }
+        divided.clear();
+        for (int i = 0; i < count; ++i) {
+            const FacePoint* own = &points[static_cast<std::size_t>(kPoints) * i];
+            Complex mean = 0;
+            double part = 0, most = 0;
+            for (int n = 0; n < kPoints; ++n) {
+                mean += own[n].phi / static_cast<double>(kPoints);
+                part += own[n].weight * std::abs(own[n].phi);
+            }
+            for (int n = 0; n < kPoints; ++n) most = std::max(most, std::abs(own[n].phi - mean));
+            const bool here = std::isfinite(part);
+            const bool varies =
+                !here || (most > options.variation * std::abs(mean) && part > options.tolerance * total);
+            if (depth < options.least_depth || (varies && depth < options.most_depth)) {
+                divide(pieces[i], divided);
+                continue;
+            }
+            if (!here) {
+                finite = false;
+                continue;
+            }
+            if (varies) unresolved += part;
+            for (int n = 0; n < kPoints; ++n) visit(own[n]);
+        }
+        pieces.swap(divided);
+    }
+    if (!finite) return std::numeric_limits<double>::infinity();
+    return total > 0 ? unresolved / total : 0.0;
+}
+
+ChartPoints chart_points(const Surface& source, const Chart& chart, const std::vector<FacePoint>& points) {
+    const Places places(source, chart);
+    ChartPoints result;
+    result.positions.resize(static_cast<Eigen::Index>(points.size()));
+    result.derivatives.resize(result.positions.size());
+    parallel_for(0, static_cast<int>(points.size()), [&](int first, int last) {
+        for (int i = first; i < last; ++i) {
+            const Places::At at = places(points[i].sample, points[i].place);
+            result.positions[i] = at.position;
+            result.derivatives[i] = at.derivative;
+        }
+    });
+    return result;
+}
+
+}  // namespace beltrami

@@ -1,0 +1,87 @@
+#include <beltrami/teichmuller/solution_bounds.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <beltrami/mesh/error.h>
+
+namespace beltrami {
+
+namespace {
+
+/// From here on face-wise coefficients are too noisy for K.
+constexpr double kLargeCoefficient = 0.8;
+
+/// Whether a map has the turns that are wanted, and whether that can be known.
+struct SameClass {
+    bool same = true, known = true;
+};
+
+SameClass same_class(const Solution& s, const QuadraticMap& map) {
+    SameClass result;
+    if (s.paths.empty()) return result;
+    const HomotopyClass wanted = homotopy_class(s.source, s.paths, s.map, s.outer_loop),
+                        found = homotopy_class(s.source, s.paths, map.head(s.map.size()), s.outer_loop);
+    for (std::size_t i = 0; i < found.holes.size(); ++i) {
+        const bool given = !s.turns.empty();
+        const int turns = given ? s.turns[found.holes[i].loop] : wanted.holes[i].turns;
+        if (turns != found.holes[i].turns) result.same = false;
+        if (!given && !wanted.holes[i].meaningful) result.known = false;
+    }
+    return result;
+}
+
+}  // namespace
+
+SolutionBounds solution_bounds(const Solution& s, std::optional<int> subdivisions) {
+    SolutionBounds result;
+    const double K_max =
+        s.distortion.flipped.empty() ? dilatation(s.distortion.max) : std::numeric_limits<double>::infinity();
+    const ReichStrebel own = reich_strebel(s.source, s.chart, s.space, s.coefficients, s.distortion.mu);
+    const bool large = s.k >= kLargeCoefficient;
+    if (!subdivisions && large) subdivisions = 0;
+
+    SharpenedBound sharp;
+    SameClass same;
+    // On a finer mesh the map may fold where it does not on the mesh itself.
+    for (int n = s.boundary.lines.empty() ? subdivisions.value_or(-1) : -1; n >= 0 && !sharp.integrals.valid; --n) {
+        SharpenedBoundOptions options;
+        options.subdivisions = n;
+        try {
+            sharp = sharpened_bound(s.source, s.boundary, s.chart, s.space, s.coefficients, s.k, options);
+        } catch (const Error& error) {
+            if (error.cause() != Cause::not_solved && error.cause() != Cause::bad_mesh) throw;
+        }
+        result.factorizations += sharp.factorizations;
+    }
+    if (sharp.integrals.valid) same = same_class(s, sharp.map);
+    const bool sharpened = sharp.integrals.valid && same.same;
+    double lower = 1, estimate = (1 + s.k) / (1 - s.k);
+    bool rigorous = false;
+    if (own.valid) {
+        lower = std::max(lower, own.lower);
+        rigorous = own.resolved && proves(s.source, s.chart);
+        estimate = own.estimate;
+    }
+    if (sharpened) {
+        if (sharp.lower > lower) lower = sharp.lower, rigorous = sharp.rigorous && same.known;
+        estimate = sharp.integrals.estimate;
+    }
+    if (own.valid || sharpened) {
+        result.bounds.push_back({"reich_strebel", lower, Bound::Of::extremal, rigorous});
+        result.bounds.push_back({"reich_strebel_estimate", estimate, Bound::Of::extremal, false});
+    }
+    if (large) {
+        const ReichStrebel averaged = averaged_estimate(s.source, s.chart, s.phi, s.map);
+        if (averaged.valid) {
+            result.bounds.push_back({"averaged_estimate", averaged.lower, Bound::Of::extremal, false});
+            if (!sharpened) estimate = averaged.lower;
+        }
+    }
+    result.K_lower = lower;
+    result.K = std::max(std::min(estimate, K_max), lower);
+    result.k = (result.K - 1) / (result.K + 1);
+    return result;
+}
+
+}  // namespace beltrami
