@@ -39,3 +39,4 @@
 #include <beltrami/teichmuller/certificate.h>
 #include <beltrami/teichmuller/extremal_map.h>
 #include <beltrami/teichmuller/extremal_solver.h>
+#include <beltrami/teichmuller/least_maximum.h>

@@ -278,7 +278,7 @@ Eigen::VectorXcd harmonic_map(const Surface& source, const BoundaryCondition& bo
     validate(boundary, source);
     require_whole_boundary(boundary, source);
     BeltramiSolver solver(source, freedoms(boundary, source), expected_factorizations);
-    solver.factorize(Eigen::VectorXcd::Zero(source.operators.sample_count()));
+    solver.factorize(Eigen::VectorXcd::Zero(source.operators.sample_count()), line_directions(boundary, source));
     return solver.solve(prescribed_values(boundary, source));
 }
 
@@ -317,7 +317,7 @@ Eigen::VectorXcd least_squares_conformal_map(const Surface& source, const Bounda
         throw Error(Cause::bad_boundary, "a conformal map needs two pins with different images",
                     "pin two vertices, or none", pins.vertices);
     BeltramiSolver solver(source, freedoms(pins, source), 1);
-    solver.factorize(Eigen::VectorXcd::Zero(source.operators.sample_count()));
+    solver.factorize(Eigen::VectorXcd::Zero(source.operators.sample_count()), line_directions(pins, source));
     return solver.solve(prescribed_values(pins, source));
 }
 

@@ -12,6 +12,7 @@
 #include <beltrami/maps/fold_free.h>
 #include <beltrami/maps/twist.h>
 #include <beltrami/mesh/error.h>
+#include <beltrami/mesh/planar.h>
 #include <beltrami/teichmuller/coarse_start.h>
 #include <beltrami/teichmuller/problem.h>
 #include <beltrami/teichmuller/solution_bounds.h>
@@ -143,6 +144,11 @@ struct ExtremalSolver::Implementation {
                                                    std::to_string(source.mesh.vertex_count() - added()) + " vertices");
             map = on_split_mesh(*options.start, prepared.split);
             prescribe(map, boundary);
+        } else if (options.waypoints) {
+            const Eigen::VectorXcd places = source.in_plane() && options.outer_loop == 0
+                                                ? planar_coordinates(source.mesh)
+                                                : problem.chart().vertices;
+            map = follow(source, Continuation(source, places, options.outer_loop, boundary, *options.waypoints)).map;
         } else if (!options.turns.empty()) {
             map = start_in_class(source, problem.chart().vertices, options.outer_loop, boundary, options.turns).map;
         } else if (smooth) {
