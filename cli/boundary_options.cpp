@@ -1,11 +1,13 @@
 #include "boundary_options.h"
 
-#include <charconv>
+#include <cmath>
 #include <optional>
 #include <string_view>
 
 #include <beltrami/io/number_lists.h>
 #include <beltrami/mesh/error.h>
+
+#include "parse.h"
 
 namespace beltrami::cli {
 
@@ -13,30 +15,14 @@ namespace {
 
 constexpr std::string_view kPolygon = "polygon:";
 
-/// The numbers of "a,b,…"; nothing if it is not a list of exactly so many.
-std::optional<std::vector<double>> numbers(std::string_view text, std::size_t count) {
-    std::vector<double> values;
-    while (true) {
-        const std::size_t comma = text.find(',');
-        const std::string_view word = text.substr(0, comma);
-        double value = 0;
-        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-        if (error != std::errc() || end != word.data() + word.size()) return {};
-        values.push_back(value);
-        if (comma == std::string_view::npos) break;
-        text.remove_prefix(comma + 1);
-    }
-    if (values.size() != count) return {};
-    return values;
-}
-
 }  // namespace
 
 void BoundaryOptions::add_to(CLI::App& app) {
-    app.add_option("--boundary", spec_,
-                   "where the outer boundary goes, counter-clockwise: disk or disk:A (angle t + A sin t, t = 2π · arc "
-                   "length / total), "
-                   "rectangle:W,H, polygon:FILE (a line `x y` per point)")
+    app.add_option(
+           "--boundary", spec_,
+           "where the outer boundary loop goes, counter-clockwise: disk or disk:A (angle t + A sin t, t = 2π · arc "
+           "length / total), "
+           "rectangle:W,H, polygon:FILE (a line `x y` per point)")
         ->type_name("SPEC");
     app.add_option(
            "--corners", corners_,
@@ -51,8 +37,20 @@ void BoundaryOptions::add_to(CLI::App& app) {
     app.add_option("--speed", speed_, "how fast the boundary runs along its target")
         ->check(CLI::IsMember({"arclength", "conformal"}))
         ->capture_default_str();
+    app.add_option("--outer", outer_,
+                   "the boundary loop, numbered as `beltrami info` prints it, whose image encloses the others; "
+                   "--boundary is about this one")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str()
+        ->type_name("h");
+    app.add_option("--hole", hole_specs_,
+                   "the hole's loop h goes to the circle around x,y of radius r, clockwise by arc length, its smallest "
+                   "vertex to the angle t (radians, 0 if absent); once for each hole")
+        ->allow_extra_args(false)
+        ->type_name("h=disk:x,y,r[,t]");
     app.add_option("--pin", pin_file_,
-                   "prescribed vertices: a line `vertex x y` each, vertices counted from 0 in file order, # comments")
+                   "prescribed vertices: a line `vertex x y` each, vertices counted from 0 in file order, # comments; "
+                   "* for a coordinate that is free (vertices inside only)")
         ->type_name("FILE");
 }
 
@@ -71,14 +69,15 @@ void BoundaryOptions::parse_spec() {
         throw Error(Cause::bad_option, "--corners belongs to --boundary rectangle:W,H");
     if (kind == "disk") {
         target_ = Target::disk;
-        const auto amplitude = colon == std::string::npos ? std::vector<double>{0.0} : numbers(rest, 1);
-        if (!amplitude)
+        const auto amplitude = colon == std::string::npos ? std::vector<double>{0.0} : number_list(rest);
+        if (!amplitude || amplitude->size() != 1)
             throw Error(Cause::bad_option, "--boundary " + spec_ + " is not disk or disk:A with a number A");
         sizes_ = *amplitude;
     } else if (kind == "rectangle") {
         target_ = Target::rectangle;
-        const auto size = numbers(rest, 2);
-        if (!size) throw Error(Cause::bad_option, "--boundary " + spec_ + " is not rectangle:W,H with two numbers");
+        const auto size = number_list(rest);
+        if (!size || size->size() != 2)
+            throw Error(Cause::bad_option, "--boundary " + spec_ + " is not rectangle:W,H with two numbers");
         sizes_ = *size;
     } else if (!polygon_file().empty()) {
         target_ = Target::polygon;
@@ -90,21 +89,60 @@ void BoundaryOptions::parse_spec() {
     }
 }
 
+void BoundaryOptions::parse_holes() {
+    constexpr std::string_view kDisk = "disk:";
+    for (const std::string& spec : hole_specs_) {
+        const auto parts = of_loop(spec);
+        const auto numbers =
+            parts && parts->second.starts_with(kDisk) ? number_list(parts->second.substr(kDisk.size())) : std::nullopt;
+        if (!numbers || numbers->size() < 3 || numbers->size() > 4)
+            throw Error(Cause::bad_option,
+                        "--hole " + spec + " is not h=disk:x,y,r or h=disk:x,y,r,t with a loop h and numbers",
+                        "`beltrami info` prints the loops' numbers");
+        if (parts->first == outer_)
+            throw Error(Cause::bad_option, "--hole " + spec + " names the outer loop",
+                        "prescribe it with --boundary, or name another loop with --outer");
+        for (const Circle& other : circles_)
+            if (other.loop == parts->first)
+                throw Error(Cause::bad_option, "--hole is given twice for loop " + std::to_string(other.loop));
+        circles_.push_back(
+            {parts->first, {(*numbers)[0], (*numbers)[1]}, (*numbers)[2], numbers->size() == 4 ? (*numbers)[3] : 0.0});
+    }
+}
+
+void BoundaryOptions::read_pins(const Mesh& source) {
+    const IndexedRows rows =
+        read_indexed_rows(pin_file_, 1, source.vertex_count(), 2, "a pinned vertex", Stars::read_as_nan);
+    for (Eigen::Index i = 0; i < rows.indices.rows(); ++i) {
+        const int vertex = rows.indices(i, 0);
+        const double x = rows.values(i, 0), y = rows.values(i, 1);
+        if (std::isnan(x) && std::isnan(y))
+            throw Error(Cause::bad_boundary,
+                        pin_file_ + ": both coordinates of vertex " + std::to_string(vertex) + " are free",
+                        "leave its line out", {vertex});
+        if (std::isnan(x)) {
+            pins_.pin_to_line(vertex, Complex(0, y), 1.0);
+        } else if (std::isnan(y)) {
+            pins_.pin_to_line(vertex, x, Complex(0, 1));
+        } else {
+            pins_.pin(vertex, Complex(x, y));
+        }
+    }
+}
+
 void BoundaryOptions::load(const Mesh& source) {
     if (!spec_.empty()) {
         parse_spec();
     } else if (!corners_.empty() || start_) {
         throw Error(Cause::bad_option, "--corners and --start say nothing without --boundary");
     }
-    if (pin_file_.empty()) return;
-    const IndexedRows rows = read_indexed_rows(pin_file_, 1, source.vertex_count(), 2, "a pinned vertex");
-    for (Eigen::Index i = 0; i < rows.indices.rows(); ++i)
-        pins_.pin(rows.indices(i, 0), Complex(rows.values(i, 0), rows.values(i, 1)));
+    parse_holes();
+    if (!pin_file_.empty()) read_pins(source);
 }
 
-BoundaryCondition BoundaryOptions::outer_loop(const Surface& source) const {
-    const BoundaryPlacement placement{start_,
-                                      speed_ == "conformal" ? BoundarySpeed::conformal : BoundarySpeed::arclength};
+BoundaryCondition BoundaryOptions::outer_values(const Surface& source) const {
+    const BoundaryPlacement placement{
+        start_, speed_ == "conformal" ? BoundarySpeed::conformal : BoundarySpeed::arclength, outer_};
     switch (target_) {
         case Target::none:
             return {};
@@ -122,8 +160,18 @@ BoundaryCondition BoundaryOptions::outer_loop(const Surface& source) const {
 }
 
 BoundaryCondition BoundaryOptions::values(const Surface& source) const {
-    BoundaryCondition boundary = outer_loop(source);
-    for (std::size_t i = 0; i < pins_.vertices.size(); ++i) boundary.pin(pins_.vertices[i], pins_.images[i]);
+    const int loops = static_cast<int>(source.topology.boundary_loops.size());
+    if (outer_ > 0 && outer_ >= loops)
+        throw Error(Cause::bad_option, "--outer " + std::to_string(outer_) + ": there is no such boundary loop",
+                    "`beltrami info` prints the loops' numbers");
+    BoundaryCondition boundary = outer_values(source);
+    const auto add = [&](const BoundaryCondition& more) {
+        for (std::size_t i = 0; i < more.vertices.size(); ++i) boundary.pin(more.vertices[i], more.images[i]);
+    };
+    for (const Circle& circle : circles_)
+        add(hole_to_circle(source, circle.loop, circle.centre, circle.radius, circle.start_angle));
+    add(pins_);
+    boundary.lines = pins_.lines;
     validate(boundary, source);
     return boundary;
 }

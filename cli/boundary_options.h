@@ -8,32 +8,45 @@
 
 namespace beltrami::cli {
 
-/// --boundary, --corners, --start, --speed, --pin: what the user prescribes about the boundary.
+/// --boundary, --corners, --start, --speed, --outer, --hole, --pin: what the user prescribes about the boundary.
 class BoundaryOptions {
   public:
     void add_to(CLI::App& app);
     /// The files the options name.
     std::vector<NamedFile> inputs() const;
-    /// Reads the options and their files. @throw Error bad_option, unreadable
+    /// Reads the options and their files. @throw Error bad_option, unreadable, bad_boundary
     void load(const Mesh& source);
-    /// The values on the source's boundary. @pre load() @throw Error bad_option, bad_boundary
+    /// What is prescribed. @pre load() @throw Error bad_option, bad_boundary
     BoundaryCondition values(const Surface& source) const;
+    /// The loop whose image encloses the others.
+    int outer_loop() const { return outer_; }
 
   private:
     enum class Target { none, disk, rectangle, polygon };
+    /// --hole: a loop's circle.
+    struct Circle {
+        int loop;
+        Complex centre;
+        double radius, start_angle;
+    };
 
     void parse_spec();
+    void parse_holes();
+    void read_pins(const Mesh& source);
     /// Of polygon:FILE.
     std::string polygon_file() const;
-    BoundaryCondition outer_loop(const Surface& source) const;
+    BoundaryCondition outer_values(const Surface& source) const;
 
     std::string spec_, speed_ = "arclength", pin_file_;
+    std::vector<std::string> hole_specs_;
     std::vector<int> corners_;
     std::optional<int> start_;
+    int outer_ = 0;
 
     Target target_ = Target::none;
     std::vector<double> sizes_;     // amplitude of a disk; width and height of a rectangle
     std::vector<Complex> polygon_;  // points
+    std::vector<Circle> circles_;
     BoundaryCondition pins_;
 };
 

@@ -82,6 +82,7 @@ void finish(const Record& record, const CommonOptions& common, const std::string
         if (record.solve)
             fmt::print("{} after {}\n", record.solve->termination,
                        counted(record.solve->iterations, "iteration", "iterations"));
+        fmt::print("{}", to_remarks(record));
         fmt::print("{}", to_sentence(record));
         for (const std::string& file : files)
             if (!file.empty() && file != "-") fmt::print("wrote {}\n", file);
@@ -101,9 +102,9 @@ Progress::~Progress() {
     if (used_) fmt::print(stderr, "\r\x1b[K");
 }
 
-void Progress::show(int iteration, double k) {
+void Progress::show(int iteration, double value, const char* name) {
     if (!terminal_) return;
-    fmt::print(stderr, "\riteration {}  k {:.6f}\x1b[K", iteration, k);
+    fmt::print(stderr, "\riteration {}  {} {:.6f}\x1b[K", iteration, name, value);
     std::fflush(stderr);
     used_ = true;
 }

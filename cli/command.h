@@ -60,7 +60,7 @@ class Progress {
   public:
     explicit Progress(bool wanted);
     ~Progress();
-    void show(int iteration, double k);
+    void show(int iteration, double value, const char* name = "k");
 
   private:
     bool terminal_, used_ = false;

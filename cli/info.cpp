@@ -51,7 +51,9 @@ class Info final : public Command {
                    source.shape->genus,
                    counted(source.shape->boundary_loops.size(), "boundary loop", "boundary loops"));
         for (std::size_t l = 0; l < source.shape->boundary_loops.size(); ++l)
-            fmt::print("  loop {}: length {:.6g}\n", l, source.shape->boundary_loops[l]);
+            fmt::print("  loop {}: length {:.6g}, {}, the first is {}\n", l, source.shape->boundary_loops[l].length,
+                       counted(source.shape->boundary_loops[l].vertices, "vertex", "vertices"),
+                       source.shape->boundary_loops[l].first_vertex);
         const MeshQuality q = quality(mesh);
         fmt::print("  smallest angle {:.2f} degrees, edges from {:.4g} to {:.4g}\n",
                    q.min_angle * 180 / std::numbers::pi, q.min_edge, q.max_edge);

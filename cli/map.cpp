@@ -1,12 +1,13 @@
-#include <map>
+#include <algorithm>
 
-#include <beltrami/baselines/baseline.h>
-#include <beltrami/io/number_lists.h>
 #include <beltrami/maps/timing.h>
 #include <beltrami/mesh/error.h>
 
 #include "boundary_options.h"
 #include "command.h"
+#include "homotopy_options.h"
+#include "map_methods.h"
+#include "metric_option.h"
 #include "output.h"
 #include "page.h"
 
@@ -14,41 +15,35 @@ namespace beltrami::cli {
 
 namespace {
 
-using Baseline = BaselineMap (*)(const Surface&, const BoundaryCondition&, const BaselineOptions&);
-
-const std::map<std::string, Baseline>& baselines() {
-    static const std::map<std::string, Baseline> methods{{"harmonic", harmonic_baseline},
-                                                         {"lscm", lscm_baseline},
-                                                         {"arap", arap_baseline},
-                                                         {"mips", mips_baseline},
-                                                         {"alternation", alternation_baseline},
-                                                         {"qc", qc_iteration_baseline}};
-    return methods;
-}
-
 class Map final : public Command {
   public:
     explicit Map(CLI::App& parent) {
         CLI::App* app =
             parent.add_subcommand("map", "map a surface to the plane; by default the map of least dilatation");
-        app->add_option("SOURCE", source_, "OBJ, PLY, OFF or STL; a disk: one component, one boundary loop, genus 0")
+        app->add_option("SOURCE", source_,
+                        "OBJ, PLY, OFF or STL; one component of genus 0 with a boundary: a disk, with holes or without")
             ->required();
         output_.add_to(*app);
+        std::vector<std::string> methods = baseline_names();
+        methods.insert(methods.begin(), "extremal");
         app->add_option(
                "--method", method_,
                "lscm, arap and mips can leave the boundary free; the others need every boundary vertex prescribed")
-            ->check(CLI::IsMember({"extremal", "harmonic", "lscm", "arap", "mips", "alternation", "qc"}))
+            ->check(CLI::IsMember(methods))
+            ->capture_default_str();
+        app->add_option("--minimize", minimize_,
+                        "K: the dilatation, by the extremal map; max: the largest |mu| of a face of this mesh, without "
+                        "folds, starting from the extremal map; parts of the boundary may be free")
+            ->check(CLI::IsMember({"K", "max"}))
             ->capture_default_str();
         boundary_.add_to(*app);
-        app->add_option("--metric", metric_,
-                        "the metric of the source: FILE with a line `i j length` per edge, or vt for the edge lengths "
-                        "of SOURCE's own vt")
-            ->type_name("FILE|vt");
+        homotopy_.add_to(*app);
+        metric_.add_to(*app);
         app->add_option(
                "--compare", compare_,
                "further methods to set beside the map, on the same boundary values (lscm on its own free boundary)")
             ->delimiter(',')
-            ->check(CLI::IsMember({"harmonic", "lscm", "arap", "mips", "alternation", "qc"}))
+            ->check(CLI::IsMember(baseline_names()))
             ->type_name("METHOD,...");
         common_.add_to(*app);
         app->footer(kExitCodes);
@@ -60,48 +55,26 @@ class Map final : public Command {
         record.command = "map";
         Mesh mesh = load(source_, record.warnings);
         boundary_.load(mesh);
-        const std::vector<EdgeLength> lengths = load_metric(mesh);
+        homotopy_.load();
+        metric_.load(mesh);
         const double start = seconds();
-        const Surface source = with_metric(std::move(mesh), lengths);
+        const Surface source = metric_.surface_of(std::move(mesh));
         add_findings(source.findings, record.warnings);
         record.source = source_record(source);
         const BoundaryCondition boundary = boundary_.values(source);
 
-        std::vector<PageMap> maps;
-        std::vector<Iteration> history;
-        Distortion distortion;
-        Eigen::VectorXcd map;
-        if (method_ == "extremal") {
-            ExtremalMap result = extremal(source, boundary);
-            record.solve = solve_record(result, seconds() - start);
-            record.map = map_record(result);
-            record.warnings.insert(record.warnings.end(), result.warnings.begin(), result.warnings.end());
-            history = std::move(result.history);
-            maps.push_back({"extremal", positions_of(result.map), result.distortion.face_abs_mu});
-            maps.push_back({"harmonic", positions_of(result.harmonic),
-                            beltrami::distortion(source.operators, result.harmonic).face_abs_mu});
-            map = std::move(result.map);
-            distortion = std::move(result.distortion);
-        } else {
-            MethodRecord main = run_baseline(source, boundary, method_, start, maps, map, distortion, record.warnings);
-            record.map = std::move(main.map);
-            record.solve = std::move(main.solve);
-        }
-        for (const std::string& other : compare_) {
-            if (other == method_) continue;
-            Eigen::VectorXcd unused_map;
-            Distortion unused;
-            if (method_ == "extremal" && other == "harmonic") maps.pop_back();  // it comes again, with its record
-            record.comparison.push_back(run_baseline(source, other == "lscm" ? BoundaryCondition() : boundary, other,
-                                                     seconds(), maps, unused_map, unused, record.warnings));
-        }
+        MethodResult result = solve(source, boundary, start, record);
+        const Surface& mapped = result.split ? *result.split : source;
+        for (const std::string& other : compare_)
+            if (other != method_) compare(mapped, boundary, other, result.pages, record);
         if (common_.wants_record() && unprescribed_boundary(boundary, source).empty() &&
             !source.topology.boundary_loops.empty())
             record.solve->seconds_harmonic = harmonic_seconds(source, boundary);
 
-        output_.write(source.mesh, map, distortion);
-        write_page(common_.report, source.mesh, std::move(maps), history, record, source_);
-        finish(record, common_, method_, {output_.path(), common_.json, common_.report});
+        output_.write(mapped.mesh, result.map, result.distortion);
+        const std::string name = result.pages[0].name;
+        write_page(common_.report, mapped.mesh, std::move(result.pages), result.history, record, source_);
+        finish(record, common_, name, {output_.path(), common_.json, common_.report});
         return 0;
     }
 
@@ -109,60 +82,60 @@ class Map final : public Command {
     void check() const {
         output_.check();
         std::vector<NamedFile> inputs = boundary_.inputs();
-        inputs.push_back({"SOURCE", source_});
-        if (metric_ != "vt") inputs.push_back({"--metric", metric_});
-        common_.check_files(inputs, {{"-o", output_.path()}});
-    }
-
-    std::vector<EdgeLength> load_metric(const Mesh& mesh) const {
-        std::vector<EdgeLength> lengths;
-        if (metric_.empty() || metric_ == "vt") return lengths;
-        const IndexedRows rows = read_indexed_rows(metric_, 2, mesh.vertex_count(), 1, "an edge of the metric");
-        for (Eigen::Index i = 0; i < rows.indices.rows(); ++i)
-            lengths.push_back({rows.indices(i, 0), rows.indices(i, 1), rows.values(i, 0)});
-        return lengths;
-    }
-
-    Surface with_metric(Mesh mesh, const std::vector<EdgeLength>& lengths) const {
-        if (metric_.empty()) return Surface(std::move(mesh));
-        require_sound(mesh);
-        Positions corners = metric_ == "vt" ? texture_corners(mesh) : corners_from_lengths(mesh, lengths);
-        return Surface(std::move(mesh), std::move(corners));
-    }
-
-    ExtremalMap extremal(const Surface& source, const BoundaryCondition& boundary) const {
-        Progress progress(!common_.quiet);  // gone before anything else is printed
-        ExtremalOptions options;
-        options.progress = [&](int iteration, double k) {
-            progress.show(iteration, k);
-            return true;
+        const auto add = [&](const std::vector<NamedFile>& more) {
+            inputs.insert(inputs.end(), more.begin(), more.end());
         };
-        return extremal_map(source, boundary, options);
+        add(homotopy_.inputs());
+        add(metric_.inputs());
+        inputs.push_back({"SOURCE", source_});
+        common_.check_files(inputs, {{"-o", output_.path()}});
+        if (method_ == "extremal") return;
+        if (homotopy_.given())
+            throw Error(Cause::bad_option, "--turns and --waypoints belong to --method extremal",
+                        "the other methods take the homotopy class as it comes");
+        if (minimize_ != "K")
+            throw Error(Cause::bad_option, "--minimize " + minimize_ + " belongs to --method extremal");
     }
 
-    static MethodRecord run_baseline(const Surface& source, const BoundaryCondition& boundary,
-                                     const std::string& method, double start, std::vector<PageMap>& maps,
-                                     Eigen::VectorXcd& map, Distortion& distortion,
-                                     std::vector<std::string>& warnings) {
-        BaselineMap result = baselines().at(method)(source, boundary, {});
-        MethodRecord record;
-        record.method = method;
-        record.solve.seconds_total = seconds() - start;
-        record.solve.iterations = result.iterations;
-        record.solve.factorizations = result.factorizations;
-        record.solve.termination = result.converged ? "converged" : "iteration_limit";
-        distortion = beltrami::distortion(source.operators, result.map);
-        record.map = map_record(distortion);
-        for (const std::string& warning : result.warnings) warnings.push_back(method + ": " + warning);
-        maps.push_back({method, positions_of(result.map), distortion.face_abs_mu});
-        map = std::move(result.map);
-        return record;
+    MethodResult solve(const Surface& source, const BoundaryCondition& boundary, double start, Record& record) const {
+        if (method_ == "extremal") {
+            ExtremalOptions options;
+            options.outer_loop = boundary_.outer_loop();
+            homotopy_.apply(source, options);
+            const auto run = minimize_ == "max" ? run_least_maximum : run_extremal;
+            return run(source, boundary, std::move(options), start, !common_.quiet, record);
+        }
+        MethodRecord main;
+        MethodResult result = run_baseline(source, boundary, method_, start, main, record.warnings);
+        record.map = std::move(main.map);
+        record.solve = std::move(main.solve);
+        return result;
     }
 
-    std::string source_, method_ = "extremal", metric_;
+    /// A method that cannot do this is a warning, not an error of the command.
+    static void compare(const Surface& mapped, const BoundaryCondition& boundary, const std::string& method,
+                        std::vector<PageMap>& pages, Record& record) {
+        MethodRecord line;
+        MethodResult other;
+        try {
+            other = run_baseline(mapped, method == "lscm" ? BoundaryCondition() : boundary, method, seconds(), line,
+                                 record.warnings);
+        } catch (const Error& error) {
+            record.warnings.push_back(method + " is not in the comparison: " + error.what());
+            return;
+        }
+        record.comparison.push_back(std::move(line));
+        // A page of that name without a record (the start of the extremal map) gives way.
+        std::erase_if(pages, [&](const PageMap& page) { return page.name == method; });
+        pages.push_back(std::move(other.pages[0]));
+    }
+
+    std::string source_, method_ = "extremal", minimize_ = "K";
     std::vector<std::string> compare_;
     OutputOptions output_;
     BoundaryOptions boundary_;
+    HomotopyOptions homotopy_;
+    MetricOption metric_;
     CommonOptions common_;
 };
 

@@ -22,6 +22,7 @@
 #include <beltrami/maps/boundary_feasibility.h>
 #include <beltrami/maps/composition.h>
 #include <beltrami/maps/continuation.h>
+#include <beltrami/maps/even_dilatation.h>
 #include <beltrami/maps/fold_free.h>
 #include <beltrami/maps/homotopy.h>
 #include <beltrami/maps/prescribed_split.h>
@@ -38,3 +39,4 @@
 #include <beltrami/teichmuller/certificate.h>
 #include <beltrami/teichmuller/extremal_map.h>
 #include <beltrami/teichmuller/extremal_solver.h>
+#include <beltrami/teichmuller/least_maximum.h>

@@ -12,7 +12,7 @@ import unittest
 import jsonschema
 import numpy as np
 
-from test_cli import SCHEMA, read_obj
+from support import SCHEMA, read_obj
 
 BUNNY = pathlib.Path(os.environ["BELTRAMI_BUNNY"])
 

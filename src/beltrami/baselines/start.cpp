@@ -26,6 +26,11 @@ void check_baseline(const Surface& source, const BoundaryCondition& boundary, co
         throw Error(Cause::bad_mesh, "the mesh is a closed surface, which has no map to the plane without folds",
                     "cut it open first");
     validate(boundary, source);
+    if (!boundary.lines.empty())
+        throw Error(Cause::bad_boundary,
+                    "vertex " + std::to_string(boundary.lines[0].vertex) +
+                        " may slide on a line, which this method does not do",
+                    "only the extremal map does; prescribe both coordinates", {boundary.lines[0].vertex});
 }
 
 double enclosed_area(const Surface& source, const BoundaryCondition& boundary) {

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <string>
 
-#include <beltrami/conformal/round_disk.h>
+#include <beltrami/conformal/domain_chart.h>
 #include <beltrami/generate/planar_domains.h>
 #include <beltrami/maps/beltrami_solver.h>
 #include <beltrami/mesh/error.h>
@@ -19,8 +19,9 @@ constexpr double kTwoPi = 2 * std::numbers::pi;
 /// A polygon's corner that turns by more than this receives a vertex.
 constexpr double kCornerTurn = 10 * std::numbers::pi / 180;
 
-/// Boundary loop 0 from a given start, with the arc length (in the metric) of each vertex from it.
-struct OuterLoop {
+/// A boundary loop from a given start, with the arc length (in the metric) of each vertex from it.
+struct Loop {
+    int index;
     std::vector<int> vertices;
     std::vector<double> arc;  ///< one more than vertices: the last is the total
 
@@ -28,17 +29,22 @@ struct OuterLoop {
     std::size_t size() const { return vertices.size(); }
 };
 
-OuterLoop outer_loop(const Surface& source, std::optional<int> start) {
-    if (source.topology.boundary_loops.empty())
+Loop loop_from(const Surface& source, int index, std::optional<int> start) {
+    const auto& loops = source.topology.boundary_loops;
+    if (loops.empty())
         throw Error(Cause::bad_boundary, "the surface is closed: it has no boundary to prescribe", "cut it open first");
-    OuterLoop loop{source.topology.boundary_loops[0], {0.0}};
-    std::vector<double> lengths = source.boundary_edge_lengths[0];
+    if (index < 0 || index >= static_cast<int>(loops.size()))
+        throw Error(Cause::bad_option, "there is no boundary loop " + std::to_string(index) +
+                                           ": the surface has the loops 0 to " + std::to_string(loops.size() - 1));
+    Loop loop{index, loops[index], {0.0}};
+    std::vector<double> lengths = source.boundary_edge_lengths[index];
     if (start) {
         const auto at = std::find(loop.vertices.begin(), loop.vertices.end(), *start);
         if (at == loop.vertices.end())
-            throw Error(Cause::bad_boundary,
-                        "the start vertex " + std::to_string(*start) + " is not on boundary loop 0",
-                        "name a vertex of the outer boundary, counted from 0", {*start});
+            throw Error(
+                Cause::bad_boundary,
+                "the start vertex " + std::to_string(*start) + " is not on boundary loop " + std::to_string(index),
+                "name a vertex of that loop, counted from 0", {*start});
         std::rotate(lengths.begin(), lengths.begin() + (at - loop.vertices.begin()), lengths.end());
         std::rotate(loop.vertices.begin(), at, loop.vertices.end());
     }
@@ -46,17 +52,26 @@ OuterLoop outer_loop(const Surface& source, std::optional<int> start) {
     return loop;
 }
 
-/// Makes nearly increasing values increasing: where they run backwards they are pooled (isotonic regression), and a
-/// pool is spread evenly by arc length between the middles of the gaps on both sides.
+/// Makes the nearly increasing values of a closed loop increasing: where they run backwards they are pooled (isotonic
+/// regression), and a pool is spread evenly by arc length between the middles of the gaps on both sides. Pools reach
+/// across the start.
+/// @param values rise by @p period around the loop
+/// @param arc    one more than values: the last is the total
 void make_increasing(std::vector<double>& values, double period, const std::vector<double>& arc) {
     struct Pool {
         double sum;
         std::size_t first, count;
         double mean() const { return sum / static_cast<double>(count); }
     };
+    // Three times around: what the second turn gets does not depend on where the loop starts.
+    const std::size_t n = values.size();
+    const double total = arc.back();
+    const auto turn = [&](std::size_t i) { return static_cast<double>(i / n) - 1; };
+    const auto value = [&](std::size_t i) { return values[i % n] + turn(i) * period; };
+    const auto place = [&](std::size_t i) { return arc[i % n] + turn(i) * total; };
     std::vector<Pool> pools;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        pools.push_back({values[i], i, 1});
+    for (std::size_t i = 0; i < 3 * n; ++i) {
+        pools.push_back({value(i), i, 1});
         while (pools.size() > 1 && pools[pools.size() - 2].mean() >= pools.back().mean()) {
             const Pool last = pools.back();
             pools.pop_back();
@@ -64,21 +79,22 @@ void make_increasing(std::vector<double>& values, double period, const std::vect
             pools.back().count += last.count;
         }
     }
-    for (std::size_t p = 0; p < pools.size(); ++p) {
-        if (pools[p].count == 1) continue;
-        const double before = p > 0 ? pools[p - 1].mean() : pools.back().mean() - period;
-        const double after = p + 1 < pools.size() ? pools[p + 1].mean() : pools[0].mean() + period;
-        const double low = 0.5 * (before + pools[p].mean()), high = 0.5 * (pools[p].mean() + after);
+    std::vector<double> result = values;
+    for (std::size_t p = 1; p + 1 < pools.size(); ++p) {
         const std::size_t first = pools[p].first, last = first + pools[p].count - 1;
-        for (std::size_t i = first; i <= last; ++i)
-            values[i] = low + (high - low) * (arc[i] - arc[first] + 1e-3 * arc.back()) /
-                                  (arc[last] - arc[first] + 2e-3 * arc.back());
+        if (first == last || last < n || first >= 2 * n) continue;
+        const double low = 0.5 * (pools[p - 1].mean() + pools[p].mean()),
+                     high = 0.5 * (pools[p].mean() + pools[p + 1].mean());
+        for (std::size_t i = std::max(first, n); i <= std::min(last, 2 * n - 1); ++i)
+            result[i - n] = low + (high - low) * (place(i) - place(first) + 1e-3 * total) /
+                                      (place(last) - place(first) + 2e-3 * total);
     }
+    values = std::move(result);
 }
 
-/// Angles of the loop's vertices on the round disk, 0 at the start and increasing.
-std::vector<double> conformal_angles(const Surface& source, const OuterLoop& loop) {
-    const Chart chart = round_disk_chart(source);
+/// Angles of the loop's vertices on the unit circle of the canonical domain, 0 at the start and increasing.
+std::vector<double> conformal_angles(const Surface& source, const Loop& loop) {
+    const Chart chart = domain_chart(source, loop.index);
     std::vector<double> angle{0.0};
     for (std::size_t i = 1; i < loop.size(); ++i)
         angle.push_back(angle.back() +
@@ -147,7 +163,7 @@ BoundaryCondition boundary_to_disk(const Surface& source, double amplitude, cons
     if (!(std::abs(amplitude) < 1))
         throw Error(Cause::bad_option,
                     "the amplitude of disk:A must lie between -1 and 1, or the boundary would run backwards");
-    const OuterLoop loop = outer_loop(source, placement.start);
+    const Loop loop = loop_from(source, placement.loop, placement.start);
     std::vector<double> angle;
     if (placement.speed == BoundarySpeed::conformal) {
         angle = conformal_angles(source, loop);
@@ -168,15 +184,17 @@ BoundaryCondition boundary_to_rectangle(const Surface& source, double width, dou
     if (corners && placement.start && (*corners)[0] != *placement.start)
         throw Error(Cause::bad_option, "the start vertex and the first corner are both given and differ",
                     "give only the corners");
-    const OuterLoop loop = outer_loop(source, corners ? std::optional((*corners)[0]) : placement.start);
+    const Loop loop = loop_from(source, placement.loop, corners ? std::optional((*corners)[0]) : placement.start);
 
     std::vector<std::size_t> at;  // positions of the corners in the loop
     if (corners) {
         for (const int corner : *corners) {
             const auto found = std::find(loop.vertices.begin(), loop.vertices.end(), corner);
             if (found == loop.vertices.end())
-                throw Error(Cause::bad_boundary, "the corner " + std::to_string(corner) + " is not on boundary loop 0",
-                            "name four vertices of the outer boundary, counted from 0", {corner});
+                throw Error(Cause::bad_boundary,
+                            "the corner " + std::to_string(corner) + " is not on boundary loop " +
+                                std::to_string(placement.loop),
+                            "name four vertices of that loop, counted from 0", {corner});
             at.push_back(static_cast<std::size_t>(found - loop.vertices.begin()));
         }
         for (std::size_t c = 1; c < 4; ++c)
@@ -218,7 +236,7 @@ BoundaryCondition boundary_to_rectangle(const Surface& source, double width, dou
 BoundaryCondition boundary_to_polygon(const Surface& source, const std::vector<Complex>& polygon,
                                       const BoundaryPlacement& placement) {
     require_simple_polygon(polygon);
-    const OuterLoop loop = outer_loop(source, placement.start);
+    const Loop loop = loop_from(source, placement.loop, placement.start);
     const std::size_t n = polygon.size();
 
     // The polygon's boundary as points with a parameter in [0,1), and the source's parameters.
@@ -233,7 +251,7 @@ BoundaryCondition boundary_to_polygon(const Surface& source, const std::vector<C
         for (std::size_t i = 0; i < loop.size(); ++i) parameter.push_back(loop.arc[i] / loop.total());
     } else {
         const Surface target(inside_of(polygon));
-        const OuterLoop around = outer_loop(target, 0);  // the polygon's points are the mesh's first vertices
+        const Loop around = loop_from(target, 0, 0);  // the polygon's points are the mesh's first vertices
         points.clear();
         for (const int v : around.vertices)
             points.emplace_back(target.mesh.positions(v, 0), target.mesh.positions(v, 1));
@@ -277,6 +295,17 @@ BoundaryCondition boundary_to_polygon(const Surface& source, const std::vector<C
         const double s = (t - along[edge]) / (along[edge + 1] - along[edge]);
         boundary.pin(loop.vertices[i], points[edge] + s * (points[(edge + 1) % points.size()] - points[edge]));
     }
+    return boundary;
+}
+
+BoundaryCondition hole_to_circle(const Surface& source, int loop, Complex centre, double radius, double start_angle) {
+    require_positive(radius, "circle's radius");
+    if (!std::isfinite(std::abs(centre)) || !std::isfinite(start_angle))
+        throw Error(Cause::bad_option, "the circle's centre and start angle must be finite");
+    const Loop hole = loop_from(source, loop, {});
+    BoundaryCondition boundary;
+    for (std::size_t i = 0; i < hole.size(); ++i)
+        boundary.pin(hole.vertices[i], centre + std::polar(radius, start_angle - kTwoPi * hole.arc[i] / hole.total()));
     return boundary;
 }
 

@@ -50,7 +50,7 @@ struct Moebius {
 };
 
 /// The exterior of a circle to the unit disk, with the mean of the weighted points at 0.
-Moebius inversion(const CircleFit& circle, const Eigen::VectorXcd& z, const std::vector<double>& weights) {
+Moebius inversion(const CircleFit& circle, const Eigen::VectorXcd& z, const Eigen::VectorXd& weights) {
     Moebius map{0, circle.radius, 1, -circle.centre};
     double total = 0;
     for (const double w : weights) total += w;

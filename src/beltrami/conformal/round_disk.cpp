@@ -7,6 +7,7 @@
 
 #include <beltrami/conformal/circle_fit.h>
 #include <beltrami/conformal/flatten.h>
+#include <beltrami/conformal/greens_function.h>
 #include <beltrami/maps/beltrami_solver.h>
 #include <beltrami/mesh/planar.h>
 
@@ -16,27 +17,10 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// What makes the chart's two linear solves: extension of boundary values, and the conjugate function.
-struct HarmonicFunctions {
-    const Surface& source;
-    const BeltramiSolver& dirichlet;
-
-    /// The real harmonic function with the values of @p boundary on the boundary.
-    Eigen::VectorXd extend(const Eigen::VectorXd& boundary) const {
-        return dirichlet.solve(boundary.cast<Complex>()).real();
-    }
-
-    /// h + i h* with ∂̄(h + i h*) least and h* = 0 at the first boundary vertex.
-    Eigen::VectorXcd with_conjugate(const Eigen::VectorXd& h) const {
-        std::vector<Freedom> freedom(h.size(), Freedom::fixed);
-        for (const int v : source.mesh.faces.vertices()) freedom[v] = Freedom::sliding;
-        freedom[source.topology.boundary_loops[0][0]] = Freedom::fixed;
-        BeltramiSolver conjugate(source, freedom, 1);
-        conjugate.factorize(Eigen::VectorXcd::Zero(source.operators.sample_count()),
-                            Eigen::VectorXcd::Constant(h.size(), Complex(0, 1)));
-        return conjugate.solve(h.cast<Complex>());
-    }
-};
+/// The real harmonic function with the values of @p boundary on the boundary.
+Eigen::VectorXd harmonic_extension(const BeltramiSolver& dirichlet, const Eigen::VectorXd& boundary) {
+    return dirichlet.solve(boundary.cast<Complex>()).real();
+}
 
 /// A solver that fixes exactly the boundary, factorised for harmonic maps.
 BeltramiSolver dirichlet_solver(const Surface& source) {
@@ -48,14 +32,16 @@ BeltramiSolver dirichlet_solver(const Surface& source) {
     return solver;
 }
 
+/// From so many samples on flattening a patch instead of the whole surface saves much (docs/performance.md).
+constexpr int kGreensFunctionFrom = 8'000;
 /// The tolerance to which a surface is flattened for a chart, whose own discretisation error is far larger.
 constexpr double kFlattenTolerance = 1e-8;
 
 /// A point deep inside the flattened surface: the inner vertex where the solution of −Δψ = 1, ψ = 0 on the boundary, is
 /// largest; without inner vertices, the middle of the largest face.
-Complex deep_point(const Surface& source, const HarmonicFunctions& harmonic, const Eigen::VectorXcd& w) {
+Complex deep_point(const Surface& source, const BeltramiSolver& dirichlet, const Eigen::VectorXcd& w) {
     const Eigen::VectorXd squares = w.cwiseAbs2();
-    const Eigen::VectorXd depth = harmonic.extend(squares) - squares;  // 4ψ, as Δ|w|² = 4
+    const Eigen::VectorXd depth = harmonic_extension(dirichlet, squares) - squares;  // 4ψ, as Δ|w|² = 4
     int deepest = -1;
     for (const int v : source.mesh.faces.vertices())
         if (!source.topology.on_boundary[v] && (deepest < 0 || depth[v] > depth[deepest])) deepest = v;
@@ -122,7 +108,7 @@ void slide(const Surface& source, Eigen::VectorXcd& g, const RoundDiskOptions& o
 
 }  // namespace
 
-void centre_in_disk(Eigen::VectorXcd& points, const std::vector<double>& weights) {
+void centre_in_disk(Eigen::VectorXcd& points, const Eigen::VectorXd& weights) {
     double total = 0;
     for (const double w : weights) total += w;
     for (int step = 0; step < 200; ++step) {
@@ -137,46 +123,69 @@ void centre_in_disk(Eigen::VectorXcd& points, const std::vector<double>& weights
 
 namespace {
 
+/// g = (w − p) exp(h + i h*), h = −log|w − p| on the boundary, where w is the plane or flattens the whole surface.
+Eigen::VectorXcd disk_map_by_flattening(const Surface& source, const BeltramiSolver& dirichlet, ConjugateBy way,
+                                        int* factorizations) {
+    Eigen::VectorXcd w;
+    if (source.in_plane()) {
+        w = planar_coordinates(source.mesh);
+    } else {
+        FlattenOptions options;
+        options.tolerance = kFlattenTolerance;
+        const Flattening flat =
+            source.metric ? flatten(source.mesh, *source.metric, options) : flatten(source.mesh, options);
+        w = flat.positions;
+        *factorizations += flat.factorizations;
+    }
+    const Complex pole = deep_point(source, dirichlet, w);
+    Eigen::VectorXd real = Eigen::VectorXd::Zero(w.size());
+    for (const int v : source.topology.boundary_loops[0]) real[v] = -std::log(std::abs(w[v] - pole));
+    const Eigen::VectorXcd h =
+        with_conjugate(source, dirichlet, way, harmonic_extension(dirichlet, real), {}, -1, factorizations);
+    Eigen::VectorXcd g(w.size());
+    for (Eigen::Index v = 0; v < g.size(); ++v) g[v] = (w[v] - pole) * std::exp(h[v]);
+    return g;
+}
+
+/// 0 at a point deep inside, |g| = 1 on the boundary up to discretisation.
+Eigen::VectorXcd disk_map(const Surface& source, const BeltramiSolver& dirichlet, ConjugateBy way,
+                          int* factorizations) {
+    if (!source.in_plane() && source.operators.sample_count() >= kGreensFunctionFrom)
+        if (auto g = disk_map_by_greens_function(source, dirichlet, way, factorizations)) return std::move(*g);
+    return disk_map_by_flattening(source, dirichlet, way, factorizations);
+}
+
 /// @param dirichlet may be null
 Chart compute_chart(const Surface& source, const BeltramiSolver* dirichlet, const RoundDiskOptions& options) {
     require_disk(source);
-    const Topology& topology = source.topology;
-    const int n = source.mesh.vertex_count();
-    Eigen::VectorXcd w(n);
     int factorizations = 0;
     if (source.in_plane()) {
-        w = planar_coordinates(source.mesh);
+        const Eigen::VectorXcd w = planar_coordinates(source.mesh);
         std::vector<Complex> boundary;
-        for (const int v : topology.boundary_loops[0]) boundary.push_back(w[v]);
+        for (const int v : source.topology.boundary_loops[0]) boundary.push_back(w[v]);
         const CircleFit circle = fit_circle(boundary);
         if (circle.exact()) return make_chart(source, (w.array() - circle.centre) / circle.radius, true);
-    } else {
-        FlattenOptions flatten_options;
-        flatten_options.tolerance = kFlattenTolerance;
-        const Flattening flat = source.metric ? flatten(source.mesh, *source.metric, flatten_options)
-                                              : flatten(source.mesh, flatten_options);
-        w = flat.positions;
-        factorizations += flat.factorizations;
     }
-
-    const auto& loop = topology.boundary_loops[0];
     std::optional<BeltramiSolver> own;
     if (!dirichlet) {
         dirichlet = &own.emplace(dirichlet_solver(source));
         ++factorizations;
     }
-    const HarmonicFunctions harmonic{source, *dirichlet};
-    const Complex pole = deep_point(source, harmonic, w);
-    Eigen::VectorXd real = Eigen::VectorXd::Zero(n);
-    for (const int v : loop) real[v] = -std::log(std::abs(w[v] - pole));
-    const Eigen::VectorXcd h = harmonic.with_conjugate(harmonic.extend(real));
-    ++factorizations;
-    Eigen::VectorXcd g(n);
-    for (int v = 0; v < n; ++v) g[v] = (w[v] - pole) * std::exp(h[v]);
-    for (const int v : loop) g[v] /= std::abs(g[v]);
-    centre_in_disk(g, vertex_areas(source.operators));
-    if (options.sliding_steps > 0) slide(source, g, options, &factorizations);
-    Chart chart = make_chart(source, std::move(g), false);
+    const Eigen::VectorXd areas = vertex_areas(source.operators);
+    const auto chart_by = [&](ConjugateBy way) {
+        Eigen::VectorXcd g = disk_map(source, *dirichlet, way, &factorizations);
+        for (const int v : source.topology.boundary_loops[0]) g[v] /= std::abs(g[v]);
+        centre_in_disk(g, areas);
+        return make_chart(source, std::move(g), false);
+    };
+    Chart chart = chart_by(ConjugateBy::flux);
+    if (chart.excluded_faces > 0)
+        if (Chart other = chart_by(ConjugateBy::system); other.excluded_faces < chart.excluded_faces)
+            chart = std::move(other);
+    if (options.sliding_steps > 0) {
+        slide(source, chart.vertices, options, &factorizations);
+        chart = make_chart(source, std::move(chart.vertices), false);
+    }
     chart.factorizations = factorizations;
     return chart;
 }

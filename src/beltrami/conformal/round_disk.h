@@ -13,10 +13,12 @@ struct RoundDiskOptions {
 /// The conformal map of a disk-like surface to the round unit disk, normalised so that the source's area is centred at
 /// 0.
 ///
-/// A planar source whose boundary already lies on a circle is only moved and scaled (exact = true). Otherwise the
-/// surface is flattened (flatten), and g = (w − p) exp(h + i h*) with h harmonic, h = −log|w − p| on the boundary, so
-/// |g| = 1 there: Riemann's construction by Green's function, two linear solves. Then, optionally, sliding steps:
-/// boundary vertices move along the circle, three of them held, to minimise the conformal energy.
+/// A planar source whose boundary already lies on a circle is only moved and scaled (exact = true). A large surface is
+/// mapped by its own Green's function (disk_map_by_greens_function). Otherwise the surface is flattened (flatten), and
+/// g = (w − p) exp(h + i h*) with h harmonic, h = −log|w − p| on the boundary, so |g| = 1 there: Riemann's construction
+/// by Green's function. If faces come out turned over, h* is found more carefully (ConjugateBy::system), and the better
+/// chart is kept. Then, optionally, sliding steps: boundary vertices move along the circle,
+/// three of them held, to minimise the conformal energy.
 /// @pre one component, one boundary loop, genus 0
 /// @throw Error bad_mesh, not_solved
 Chart round_disk_chart(const Surface& source, const RoundDiskOptions& options = {});
@@ -27,6 +29,6 @@ Chart round_disk_chart(const Surface& source, const BeltramiSolver& dirichlet, c
 
 /// Turns a disk's points by the Möbius map that brings their weighted mean to 0 (Douady & Earle's conformal barycentre,
 /// by fixed-point iteration).
-void centre_in_disk(Eigen::VectorXcd& points, const std::vector<double>& weights);
+void centre_in_disk(Eigen::VectorXcd& points, const Eigen::VectorXd& weights);
 
 }  // namespace beltrami

@@ -10,8 +10,6 @@ namespace beltrami {
 namespace {
 
 constexpr int kFirstDegree = 8, kFirstPower = 4;
-/// Poles of one cluster, at most.
-constexpr int kPoles = 8;
 /// A function of which less than this part is new is left out.
 constexpr double kDependent = 1e-5;
 /// Points worked through at a time.
@@ -35,8 +33,9 @@ std::unique_ptr<DifferentialSpace> RationalSpace::starting_space(const Singulari
 void RationalSpace::add_corner_poles() {
     std::vector<Generator> poles;
     for (const auto& corner : family_->singularities.corners)
-        for (int j = 0; j < kPoles; ++j) {
-            const double distance = corner.reach * std::exp(-4 * (std::sqrt(kPoles) - std::sqrt(kPoles - j)));
+        for (int j = 0; j < corner_poles; ++j) {
+            const double distance =
+                corner.reach * std::exp(-4 * (std::sqrt(corner_poles) - std::sqrt(corner_poles - j)));
             if (distance < corner.finest && j > 0) break;
             poles.push_back({corner.vertex + distance * corner.outward, distance, 1});
         }

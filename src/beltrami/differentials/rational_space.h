@@ -16,6 +16,9 @@ namespace beltrami {
 /// would be fitted to the folds of the start.
 class RationalSpace final : public DifferentialSpace {
   public:
+    /// Poles of one cluster, at most.
+    static constexpr int corner_poles = 8;
+
     /// Points of the canonical domain that resolve the singularities, with their weights (areas).
     struct Quadrature {
         Eigen::VectorXcd points;

@@ -20,11 +20,15 @@ struct IndexedRows {
     Positions values;                                                             ///< #rows × value_columns
 };
 
+/// Whether a value may be left open by a `*`.
+enum class Stars { refused, read_as_nan };
+
 /// As read_rows(), where the first columns are indices.
 /// @param index_columns how many: whole numbers in [0, limit)
 /// @param value_columns how many other numbers follow them
+/// @param stars         read_as_nan: a value may be `*`, and becomes NaN; one that is NaN itself is refused then
 /// @throw Error unreadable with file and line
 IndexedRows read_indexed_rows(const std::filesystem::path& path, int index_columns, int limit, int value_columns,
-                              const std::string& what);
+                              const std::string& what, Stars stars = Stars::refused);
 
 }  // namespace beltrami

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
 #include <string>
 
 #include <beltrami/linear/element_assembly.h>
@@ -107,13 +108,15 @@ struct BeltramiSolver::Implementation {
         return base;
     }
 
-    /// −Re[(DB)^H W D base]; real and imaginary part as two columns where they decouple.
-    Eigen::MatrixXd right_hand_side(const Eigen::VectorXcd& base) const {
+    /// −Re[(DB)^H W (D base + offset)]; real and imaginary part as two columns where they decouple.
+    /// @param offset #S, or empty for 0
+    Eigen::MatrixXd right_hand_side(const Eigen::VectorXcd& base, const Eigen::VectorXcd& offset = {}) const {
         Eigen::MatrixXd rhs = Eigen::MatrixXd::Zero(assembly->unknown_count(), decoupled ? 2 : 1);
         std::array<Complex, kMostUnknowns> d;
         for (int s = 0; s < operators.sample_count(); ++s) {
             const auto stencil = operators.stencil(s);
-            bool any = false;
+            const Complex more = offset.size() ? offset[s] : 0.0;
+            bool any = more != 0.0;
             for (const int v : stencil) any = any || base[v] != 0.0;
             if (!any) continue;
             const auto unknowns = assembly->unknowns(s);
@@ -127,12 +130,12 @@ struct BeltramiSolver::Implementation {
                 }
                 for (int j = 0; j < count; ++j)
                     if (unknowns[j] >= 0) {
-                        rhs(unknowns[j], 0) -= w * std::real(std::conj(d[j]) * re);
-                        rhs(unknowns[j], 1) -= w * std::real(std::conj(d[j]) * im);
+                        rhs(unknowns[j], 0) -= w * std::real(std::conj(d[j]) * (re + more));
+                        rhs(unknowns[j], 1) -= w * std::real(std::conj(d[j]) * (im - kI * more));
                     }
             } else {
                 const auto [dz, dzbar] = operators.derivatives(s, base);
-                const Complex residual = dzbar - nu[s] * dz;
+                const Complex residual = dzbar - nu[s] * dz + more;
                 for (int j = 0; j < count; ++j)
                     if (unknowns[j] >= 0) rhs(unknowns[j], 0) -= w * std::real(std::conj(d[j]) * residual);
             }
@@ -213,6 +216,24 @@ Eigen::VectorXcd BeltramiSolver::solve(const Eigen::VectorXcd& start) const {
     return m.unpack(m.solver->solve(m.right_hand_side(base)), base);
 }
 
+Eigen::VectorXcd BeltramiSolver::solve(const Eigen::VectorXcd& start, const Eigen::VectorXcd& offset) const {
+    const Implementation& m = *implementation_;
+    const Eigen::VectorXcd base = m.base_of(start);
+    return m.unpack(m.solver->solve(m.right_hand_side(base, offset)), base);
+}
+
+Eigen::VectorXd BeltramiSolver::solve_poisson(const Eigen::VectorXd& load) const {
+    const Implementation& m = *implementation_;
+    if (!m.decoupled) throw std::logic_error("BeltramiSolver::solve_poisson needs a fixed boundary");
+    Eigen::MatrixXd rhs(m.assembly->unknown_count(), 1);
+    // The matrix is that of ½ ∫ ∇u·∇v.
+    for (Eigen::Index u = 0; u < rhs.rows(); ++u) rhs(u, 0) = 0.5 * load[m.owner[u]];
+    const Eigen::MatrixXd y = m.solver->solve(rhs);
+    Eigen::VectorXd result = Eigen::VectorXd::Zero(m.operators.vertex_count);
+    for (Eigen::Index u = 0; u < rhs.rows(); ++u) result[m.owner[u]] = y(u, 0);
+    return result;
+}
+
 Eigen::VectorXcd BeltramiSolver::solve_near(const Eigen::VectorXcd& nu, const Eigen::VectorXcd& start,
                                             const Eigen::VectorXcd& guess, double tolerance) {
     Implementation& m = *implementation_;
@@ -257,7 +278,7 @@ Eigen::VectorXcd harmonic_map(const Surface& source, const BoundaryCondition& bo
     validate(boundary, source);
     require_whole_boundary(boundary, source);
     BeltramiSolver solver(source, freedoms(boundary, source), expected_factorizations);
-    solver.factorize(Eigen::VectorXcd::Zero(source.operators.sample_count()));
+    solver.factorize(Eigen::VectorXcd::Zero(source.operators.sample_count()), line_directions(boundary, source));
     return solver.solve(prescribed_values(boundary, source));
 }
 
@@ -296,7 +317,7 @@ Eigen::VectorXcd least_squares_conformal_map(const Surface& source, const Bounda
         throw Error(Cause::bad_boundary, "a conformal map needs two pins with different images",
                     "pin two vertices, or none", pins.vertices);
     BeltramiSolver solver(source, freedoms(pins, source), 1);
-    solver.factorize(Eigen::VectorXcd::Zero(source.operators.sample_count()));
+    solver.factorize(Eigen::VectorXcd::Zero(source.operators.sample_count()), line_directions(pins, source));
     return solver.solve(prescribed_values(pins, source));
 }
 

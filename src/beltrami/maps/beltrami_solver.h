@@ -34,6 +34,16 @@ class BeltramiSolver {
     /// their direction; what free vertices have in @p start does not matter.
     Eigen::VectorXcd solve(const Eigen::VectorXcd& start) const;
 
+    /// The same for f that minimises Σ A |∂̄f − ν ∂f + r|²/(1−|ν|²): what is added to a function whose derivatives are
+    /// known, though it may be multivalued itself, to make the sum a solution.
+    /// @param offset #S the r of every sample
+    Eigen::VectorXcd solve(const Eigen::VectorXcd& start, const Eigen::VectorXcd& offset) const;
+
+    /// The real function u, 0 at the fixed vertices, with ∫ ∇u·∇v = Σ load·v for every v: −Δu = load.
+    /// @param load #V integrals against the vertices' hat functions
+    /// @pre decoupled(), and the last factorisation is of the coefficient 0
+    Eigen::VectorXd solve_poisson(const Eigen::VectorXd& load) const;
+
     /// The map for a coefficient near that of the last factorize(): by conjugate gradients with the old factor where
     /// that takes few steps, else with a new one.
     /// @param guess     a map to start from, e.g. that of the old coefficient

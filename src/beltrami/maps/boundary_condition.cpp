@@ -68,8 +68,11 @@ void require_whole_boundary(const BoundaryCondition& boundary, const Surface& so
                         std::to_string(loop.size()) + " vertices) has " + std::to_string(count) +
                         " without a prescribed image, the first is vertex " + std::to_string(first);
     }
-    throw Error(Cause::bad_boundary, sentence, "pin every boundary vertex, or give --boundary for the outer loop",
-                missing);
+    throw Error(
+        Cause::bad_boundary, sentence,
+        "pin every boundary vertex (--boundary for the outer loop, --hole for holes), or let parts be free with "
+        "--minimize max",
+        missing);
 }
 
 std::vector<Freedom> freedoms(const BoundaryCondition& boundary, const Surface& source) {

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <optional>
 #include <string>
 
-#include <beltrami/linear/element_assembly.h>
+#include <beltrami/maps/coupled_system.h>
 #include <beltrami/maps/distortion_energy.h>
-#include <beltrami/mesh/disjoint_sets.h>
 #include <beltrami/mesh/error.h>
 
 namespace beltrami {
@@ -39,72 +37,14 @@ constexpr double kLeastEpsilon = 1e-9;
 constexpr int kPatience = 100;
 constexpr int kExpectedFactorizations = 20;
 
-/// Fixes two vertices far apart in every component that has none fixed, one where one is fixed.
-void fix_similarity(const Surface& source, const Eigen::VectorXcd& map, std::vector<Freedom>& freedoms) {
-    const FaceList& faces = source.mesh.faces;
-    DisjointSets sets(source.mesh.vertex_count());
-    for (int f = 0; f < faces.size(); ++f)
-        for (const int v : faces[f]) sets.join(faces[f][0], v);
-    struct Component {
-        int free = 0, fixed = 0, anchor = -1;
-    };
-    std::vector<Component> components(source.mesh.vertex_count());
-    for (int v = 0; v < source.mesh.vertex_count(); ++v) {
-        Component& c = components[sets.find(v)];
-        if (freedoms[v] == Freedom::fixed) {
-            ++c.fixed;
-            c.anchor = v;
-        } else {
-            ++c.free;
-        }
-    }
-    const auto hold_farthest = [&](int component, Complex from) {
-        int best = -1;
-        double most = -1;
-        for (int v = 0; v < source.mesh.vertex_count(); ++v)
-            if (freedoms[v] == Freedom::free && sets.find(v) == component && std::norm(map[v] - from) > most) {
-                most = std::norm(map[v] - from);
-                best = v;
-            }
-        if (best >= 0) freedoms[best] = Freedom::fixed;
-        return best;
-    };
-    for (int c = 0; c < source.mesh.vertex_count(); ++c) {
-        if (sets.find(c) != c || components[c].free == 0 || components[c].fixed >= 2) continue;
-        int anchor = components[c].anchor;
-        if (anchor < 0) anchor = hold_farthest(c, map[c]);
-        if (anchor >= 0) hold_farthest(c, map[anchor]);
-    }
-}
-
-/// The coupled linear system of a Newton step.
+/// Newton steps of the distortion energy.
 class NewtonSystem {
   public:
     NewtonSystem(const Operators& operators, const std::vector<Freedom>& freedoms)
-        : operators_(operators), first_(freedoms.size(), -1) {
-        for (std::size_t v = 0; v < freedoms.size(); ++v) {
-            if (freedoms[v] == Freedom::fixed) continue;
-            first_[v] = count_;
-            count_ += 2;
-        }
-        std::vector<int> offsets{0}, unknowns;
-        for (int s = 0; s < operators.sample_count(); ++s) {
-            for (const int v : operators.stencil(s)) {
-                unknowns.push_back(first_[v]);
-                unknowns.push_back(first_[v] < 0 ? -1 : first_[v] + 1);
-            }
-            offsets.push_back(static_cast<int>(unknowns.size()));
-        }
-        assembly_ = std::make_unique<ElementAssembly>(std::move(offsets), std::move(unknowns), count_);
-        solver_ = std::make_unique<SymmetricSolver>(assembly_->pattern(), kExpectedFactorizations);
-    }
+        : operators_(operators), system_(operators, freedoms, kExpectedFactorizations) {}
 
-    int factorization_count() const { return solver_->factorization_count(); }
-
-    struct Step {
-        Eigen::VectorXcd direction;  ///< #V, 0 at fixed vertices
-        double slope = 0;            ///< of M along it, negative
-    };
+    using Step = CoupledSystem::Step;
+    int factorization_count() const { return system_.factorization_count(); }
 
     /// With the projected Hessian; this cannot fail but by rounding.
     Step step(const DistortionEnergy& energy, const Eigen::VectorXcd& f, Regularisation regularisation,
@@ -134,39 +74,17 @@ class NewtonSystem {
   private:
     Step solve(const DistortionEnergy& energy, const Eigen::VectorXcd& f, Regularisation regularisation,
                const DistortionEnergy::Value& at, Curvature curvature, double floor) {
-        const Eigen::VectorXd gradient = assemble(energy, f, regularisation, at, curvature, floor);
-        solver_->factorize();
-        const Eigen::VectorXd solution = solver_->solve(-gradient);
-        Step step{Eigen::VectorXcd::Zero(f.size()), gradient.dot(solution)};
-        for (Eigen::Index v = 0; v < f.size(); ++v)
-            if (first_[v] >= 0) step.direction[v] = {solution[first_[v]], solution[first_[v] + 1]};
-        return step;
-    }
-
-    Eigen::VectorXd assemble(const DistortionEnergy& energy, const Eigen::VectorXcd& f, Regularisation regularisation,
-                             const DistortionEnergy::Value& at, Curvature curvature, double floor) {
-        Eigen::VectorXd gradient = Eigen::VectorXd::Zero(count_);
-        auto& matrix = solver_->matrix();
-        matrix.coeffs().setZero();
-        double* values = matrix.valuePtr();
+        system_.set_zero();
         for (int s = 0; s < operators_.sample_count(); ++s) {
             if (!energy.counts(s)) continue;
             const auto e = energy.element(s, f, regularisation, at, curvature, floor);
-            const auto unknowns = assembly_->unknowns(s);
-            const auto slots = assembly_->slots(s);
-            for (int i = 0; i < e.unknowns; ++i)
-                if (unknowns[i] >= 0) gradient[unknowns[i]] += e.gradient[i];
-            for (std::size_t k = 0; k < slots.size(); ++k)
-                if (slots[k] >= 0) values[slots[k]] += e.hessian[k];
+            system_.add(s, e.gradient.data(), e.hessian.data());
         }
-        return gradient;
+        return system_.solve();
     }
 
     const Operators& operators_;
-    std::vector<int> first_;  // #V first unknown, −1 where fixed
-    int count_ = 0;
-    std::unique_ptr<ElementAssembly> assembly_;
-    std::unique_ptr<SymmetricSolver> solver_;
+    CoupledSystem system_;
 };
 
 /// ε lowered by a part, less where folds are deep: Garanzha et al. 2021, section 4.
@@ -320,8 +238,6 @@ FoldFreeMap fold_free_map(const Surface& source, const std::vector<Freedom>& fre
     std::vector<Freedom> held = freedoms;
     std::vector<char> referenced(freedoms.size(), 0);
     for (const int v : operators.vertices) referenced[v] = 1;
-    for (std::size_t v = 0; v < held.size(); ++v)
-        if (!referenced[v]) held[v] = Freedom::fixed;
     bool nothing_fixed = true;
     for (std::size_t v = 0; v < held.size(); ++v)
         nothing_fixed = nothing_fixed && (!referenced[v] || held[v] == Freedom::free);

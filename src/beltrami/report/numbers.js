@@ -48,6 +48,16 @@ function roundTicks(low, high, wanted) {  // ticks as pairs of number and text
     return ticks.map(x => [x, decimals > 6 ? show(x) : x.toFixed(decimals)]);
 }
 
+function turnsInWords({ outer_loop, holes = [] }) {
+    const turned = holes.filter(hole => hole.meaningful && hole.turns !== 0)
+        .map(({ loop, turns }) => `loop ${loop} by ${count(Math.abs(turns), "whole turn")} ` +
+            (turns > 0 ? "counter-clockwise" : "clockwise"));
+    const unclear = holes.filter(hole => !hole.meaningful).map(hole => `loop ${hole.loop}`);
+    return (turned.length ? `Against loop ${outer_loop} the map turns ${turned.join(", ")}.`
+                          : `No hole is turned against loop ${outer_loop}.`) +
+        (unclear.length ? ` Of ${unclear.join(", ")} it cannot be told: faces there are flipped.` : "");
+}
+
 function writeSentence() {
     const { K, K_max, K_lower, flipped, degenerate } = mainMap, sentences = [];
     if (isNumber(K)) {
@@ -59,7 +69,8 @@ function writeSentence() {
         if (isNumber(K_lower)) {
             const closed = record.source?.boundary_loops?.length === 0;
             const rivals = (lowerBound?.of === "mesh" ? "no map of this mesh" : "no map") +
-                (closed ? " of the same homotopy class" : " with the same boundary conditions");
+                (closed ? " of the same homotopy class" : " with the same boundary conditions") +
+                (record.homotopy?.holes?.length ? " in the same homotopy class" : "");
             sentence += lowerBound?.rigorous === false
                 ? `; by an estimate, ${rivals} gets below about ${fixed(K_lower)}`
                 : `; ${rivals} can do better than ${fixed(K_lower)}`;
@@ -70,6 +81,11 @@ function writeSentence() {
     const faces = n => count(n, "face is", "faces are");
     if (flipped > 0) sentences.push(`${faces(flipped)} flipped: there the map is not one-to-one.`);
     if (degenerate > 0) sentences.push(`${faces(degenerate)} degenerate.`);
+    if (record.least_maximum) {
+        const { before, after } = record.least_maximum;
+        sentences.push(`The largest |μ| of a face was ${fixed(before)} and is now ${fixed(after)}.`);
+    }
+    if (record.homotopy) sentences.push(turnsInWords(record.homotopy));
     if (solve.termination) {
         const steps = isNumber(solve.iterations) ? ` after ${count(solve.iterations, "iteration")}` : "";
         const converged = solve.termination === "converged";
@@ -93,6 +109,10 @@ function writeNumbers() {
     if (flipped !== undefined) add("Flipped faces", show(flipped), `${show(degenerate ?? 0)} degenerate`, flipped > 0);
     if (isNumber(boundary_residual)) add("Boundary residual", show(boundary_residual, 2));
     if (isNumber(solve.iterations)) add("Iterations", show(solve.iterations), words(solve.termination ?? ""));
+    const { corners } = record, sharpest = corners?.sharpest;
+    if (corners) add("Corners of the boundary values", show(corners.count),
+                     sharpest ? `at vertex ${sharpest.vertex} K ≥ about ${fixed(sharpest.K)}` : "");
+    if (record.split) add("Edges split", show(record.split.edges), count(record.split.added.length, "added vertex", "added vertices"));
     const factorizations = solve.factorizations ? count(solve.factorizations, "factorization") : "";
     if (isNumber(seconds.total)) add("Time", show(seconds.total, 3) + "\u202fs", factorizations);
     if (!$("numbers").children.length) $("numbers").hidden = true;

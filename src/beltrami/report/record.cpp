@@ -51,7 +51,47 @@ Json to_object(const SolveRecord& solve) {
         {"iterations", solve.iterations}, {"termination", solve.termination}, {"factorizations", solve.factorizations}};
     object["seconds"] = {{"total", number(solve.seconds_total)}};
     put(object["seconds"], "harmonic", solve.seconds_harmonic);
+    if (solve.folds_removed) object["folds_removed"] = true;
     return object;
+}
+
+Json to_object(const HomotopyClass& homotopy) {
+    Json holes = Json::array();
+    for (const HoleTurns& hole : homotopy.holes)
+        holes.push_back({{"loop", hole.loop},
+                         {"turns", hole.turns},
+                         {"angle", number(hole.angle)},
+                         {"outer_vertex", hole.outer_vertex},
+                         {"hole_vertex", hole.hole_vertex},
+                         {"meaningful", hole.meaningful}});
+    return {{"outer_loop", homotopy.outer_loop}, {"holes", std::move(holes)}};
+}
+
+Json to_object(const CornersRecord& corners) {
+    Json object = {{"count", corners.count}};
+    if (corners.sharpest)
+        object["sharpest"] = {{"vertex", corners.sharpest->vertex},
+                              {"K", number(corners.sharpest->safe_bound)},
+                              {"source_angle", number(corners.sharpest->source_angle)},
+                              {"image_angle", number(corners.sharpest->image_angle)}};
+    return object;
+}
+
+/// Which holes are turned, in words.
+std::string sentence_of(const HomotopyClass& homotopy) {
+    std::string turned, unclear;
+    for (const HoleTurns& hole : homotopy.holes) {
+        if (!hole.meaningful) {
+            unclear += fmt::format("{}loop {}", unclear.empty() ? "" : ", ", hole.loop);
+        } else if (hole.turns != 0) {
+            turned += fmt::format("{}loop {} by {:+}", turned.empty() ? "" : ", ", hole.loop, hole.turns);
+        }
+    }
+    std::string text = "homotopy class: ";
+    text += turned.empty() ? "no hole is turned" : "turned is " + turned;
+    text += fmt::format(" against loop {}", homotopy.outer_loop);
+    if (!unclear.empty()) text += "; it cannot be told of " + unclear + ": faces there are flipped";
+    return text + "\n";
 }
 
 std::string cell(const std::optional<double>& value, int digits) {
@@ -68,7 +108,11 @@ SourceRecord source_record(const Mesh& mesh) {
 
 SourceRecord source_record(const Mesh& mesh, const Topology& topology) {
     SourceRecord record = source_record(mesh);
-    record.shape = {topology.components, topology.genus, topology.loop_lengths};
+    record.shape = {topology.components, topology.genus, {}};
+    for (std::size_t l = 0; l < topology.boundary_loops.size(); ++l) {
+        const std::vector<int>& loop = topology.boundary_loops[l];
+        record.shape->boundary_loops.push_back({topology.loop_lengths[l], static_cast<int>(loop.size()), loop[0]});
+    }
     return record;
 }
 
@@ -98,8 +142,50 @@ MapRecord map_record(const ExtremalMap& result) {
     return record;
 }
 
+MapRecord map_record(const LeastMaximumMap& result) {
+    MapRecord record = map_record(result.distortion);
+    if (result.extremal) {
+        // k, K and the attained value are those of another map; what is below K* is below every map's K.
+        for (const Bound& bound : result.extremal->bounds)
+            if (bound.kind != "attained" && bound.kind != "reich_strebel_estimate") record.bounds.push_back(bound);
+        if (result.extremal->distortion.flipped.empty()) record.K_lower = result.extremal->K_lower;
+        record.boundary_residual = result.extremal->boundary_residual;
+    }
+    if (record.K_max && std::isfinite(*record.K_max))
+        record.bounds.push_back({"attained", *record.K_max, Bound::Of::extremal, true});
+    return record;
+}
+
 SolveRecord solve_record(const ExtremalMap& result, double seconds_total) {
-    return {result.iterations, to_string(result.termination), result.factorizations, seconds_total, {}};
+    return {result.iterations,   to_string(result.termination), result.factorizations, seconds_total, {},
+            result.folds_removed};
+}
+
+SolveRecord solve_record(const LeastMaximumMap& result, double seconds_total) {
+    // Where rounding allows no better map, it has converged.
+    const bool settled = result.fold_free && result.status != FoldFreeStatus::iteration_limit;
+    const int first = result.extremal ? result.extremal->iterations : 0;
+    return {first + result.iterations,
+            to_string(settled ? Termination::converged : Termination::iteration_limit),
+            result.factorizations,
+            seconds_total,
+            {},
+            false};
+}
+
+CornersRecord corners_record(const ExtremalMap& result) {
+    return {static_cast<int>(result.corners.size()), result.sharpest};
+}
+
+SplitRecord split_record(const SplitProblem& split, int source_vertices) {
+    SplitRecord record{split.split_edges, {}};
+    for (std::size_t i = 0; i < split.parents.size(); ++i) {
+        std::vector<int> row{source_vertices + static_cast<int>(i)};
+        for (const int parent : split.parents[i])
+            if (parent >= 0) row.push_back(parent);
+        record.added.push_back(std::move(row));
+    }
+    return record;
 }
 
 std::string to_json(const Record& record) {
@@ -111,11 +197,25 @@ std::string to_json(const Record& record) {
     source["faces"] = record.source.faces;
     if (record.source.shape) {
         source["components"] = record.source.shape->components;
-        source["boundary_loops"] = record.source.shape->boundary_loops;
+        Json lengths = Json::array(), loops = Json::array();
+        for (const SourceRecord::Loop& loop : record.source.shape->boundary_loops) {
+            lengths.push_back(number(loop.length));
+            loops.push_back(
+                {{"length", number(loop.length)}, {"vertices", loop.vertices}, {"first_vertex", loop.first_vertex}});
+        }
+        source["boundary_loops"] = std::move(lengths);
+        source["loops"] = std::move(loops);
         source["genus"] = record.source.shape->genus;
     }
     if (record.map) json["map"] = to_object(*record.map);
     if (record.solve) json["solve"] = to_object(*record.solve);
+    if (record.homotopy) json["homotopy"] = to_object(*record.homotopy);
+    if (record.corners) json["corners"] = to_object(*record.corners);
+    if (record.split) json["split"] = {{"edges", record.split->edges}, {"added", record.split->added}};
+    if (record.least_maximum)
+        json["least_maximum"] = {{"power", record.least_maximum->power},
+                                 {"before", number(record.least_maximum->before)},
+                                 {"after", number(record.least_maximum->after)}};
     if (!record.comparison.empty()) {
         Json methods = Json::array();
         for (const MethodRecord& other : record.comparison)
@@ -159,6 +259,25 @@ std::string to_table(const Record& record, const std::string& method) {
     return table;
 }
 
+std::string to_remarks(const Record& record) {
+    std::string text;
+    if (record.homotopy) text += sentence_of(*record.homotopy);
+    if (record.solve && record.solve->folds_removed)
+        text += "the iteration left flipped faces; a fold-free solve opened them\n";
+    if (record.corners && record.corners->count > 0) {
+        const CornersRecord& corners = *record.corners;
+        text += fmt::format("source and boundary values have {} {}", corners.count, corners.count == 1 ? "corner" : "corners");
+        if (corners.sharpest)
+            text += fmt::format("; at vertex {} they force a stretch of about K = {:.3f} (estimate)",
+                                corners.sharpest->vertex, corners.sharpest->safe_bound);
+        text += "\n";
+    }
+    if (record.least_maximum)
+        text += fmt::format("largest |mu| of a face: {:.4f} before, {:.4f} after\n", record.least_maximum->before,
+                            record.least_maximum->after);
+    return text;
+}
+
 std::string to_sentence(const Record& record) {
     if (!record.map || !record.map->K_lower) return {};
     const MapRecord& map = *record.map;
@@ -166,11 +285,12 @@ std::string to_sentence(const Record& record) {
         return bound.rigorous && bound.of == Bound::Of::extremal && bound.kind != "attained" && bound.K == *map.K_lower;
     });
     // Rounded so that what is said stays true.
+    const char* prescribed = record.homotopy ? "boundary values in this homotopy class" : "boundary values";
     return fmt::format(
-        "no map with these boundary values stretches less than K = {:.3f} ({})\n"
+        "no map with these {} stretches less than K = {:.3f} ({})\n"
         "this one: about {:.3f}, at most {:.3f} on 99 % of the area\n",
-        std::floor(*map.K_lower * 1e3) / 1e3, rigorous ? "proved up to rounding" : "estimate", dilatation(map.mean),
-        std::ceil(dilatation(map.p99) * 1e3) / 1e3);
+        prescribed, std::floor(*map.K_lower * 1e3) / 1e3, rigorous ? "proved up to rounding" : "estimate",
+        dilatation(map.mean), std::ceil(dilatation(map.p99) * 1e3) / 1e3);
 }
 
 }  // namespace beltrami

@@ -5,15 +5,20 @@
 #include <vector>
 
 #include <beltrami/teichmuller/extremal_map.h>
+#include <beltrami/teichmuller/least_maximum.h>
 
 namespace beltrami {
 
 /// What was read. Topology is absent for a mesh on which it is not defined.
 struct SourceRecord {
     int vertices = 0, faces = 0;
+    struct Loop {
+        double length;
+        int vertices, first_vertex;
+    };
     struct Shape {
         int components, genus;
-        std::vector<double> boundary_loops;  ///< lengths, loop 0 first
+        std::vector<Loop> boundary_loops;  ///< loop 0 first
     };
     std::optional<Shape> shape;
 };
@@ -34,6 +39,25 @@ struct SolveRecord {
     int factorizations = 0;
     double seconds_total = 0;
     std::optional<double> seconds_harmonic;
+    bool folds_removed = false;  ///< of the extremal map
+};
+
+/// Corners and kinks of source and boundary values.
+struct CornersRecord {
+    int count = 0;
+    std::optional<BoundaryCorner> sharpest;  ///< the one with the largest safe_bound above 1
+};
+
+/// The mesh that was mapped, where edges of the source had to be split.
+struct SplitRecord {
+    int edges = 0;
+    std::vector<std::vector<int>> added;  ///< each added vertex, then the vertices of the source whose mean it is
+};
+
+/// What minimising the largest |μ| has reached.
+struct LeastMaximumRecord {
+    double power = 0;
+    double before = 0, after = 0;  ///< largest |μ| of the start and of the map
 };
 
 /// One line of a comparison.
@@ -49,6 +73,10 @@ struct Record {
     SourceRecord source;
     std::optional<MapRecord> map;
     std::optional<SolveRecord> solve;
+    std::optional<HomotopyClass> homotopy;  ///< of the map, where there are holes
+    std::optional<CornersRecord> corners;
+    std::optional<SplitRecord> split;
+    std::optional<LeastMaximumRecord> least_maximum;
     std::vector<MethodRecord> comparison;
     std::vector<std::string> warnings;
 };
@@ -58,7 +86,13 @@ SourceRecord source_record(const Mesh& mesh, const Topology& topology);
 SourceRecord source_record(const Surface& surface);
 MapRecord map_record(const Distortion& distortion);
 MapRecord map_record(const ExtremalMap& result);
+/// Dilatation of the map itself; the lower bounds are those of the extremal map of its class.
+MapRecord map_record(const LeastMaximumMap& result);
 SolveRecord solve_record(const ExtremalMap& result, double seconds_total);
+SolveRecord solve_record(const LeastMaximumMap& result, double seconds_total);
+CornersRecord corners_record(const ExtremalMap& result);
+/// @param source_vertices number of vertices before the split
+SplitRecord split_record(const SplitProblem& split, int source_vertices);
 
 /// The record as JSON, keys in the documented order, ending with a newline.
 std::string to_json(const Record& record);
@@ -66,6 +100,9 @@ std::string to_json(const Record& record);
 /// The record's map and comparison as a table for the terminal; empty without a map.
 /// @param method name of the record's own map
 std::string to_table(const Record& record, const std::string& method);
+
+/// Homotopy class, corners, folds removed and the largest |μ|, as far as they are there: lines for the terminal.
+std::string to_remarks(const Record& record);
 
 /// What the lower bound on K says and how near the map comes, in plain words for the terminal; empty without a bound.
 std::string to_sentence(const Record& record);

@@ -114,7 +114,13 @@ CoefficientStep::Result CoefficientStep::solve(const Eigen::VectorXcd& mu, const
     result.direction = length > 0 ? Eigen::VectorXcd(dual.coefficients / length) : dual.coefficients;
     result.phi = length > 0 ? Eigen::VectorXcd(dual.phi / length) : dual.phi;
     const double size = norm.norm(result.phi, 0);
-    result.k = size > 0 ? dilatation_of_pairing(2 * dual.pairing / length / size) : 0.0;
+    if (!(size > 0)) return result;
+    const double pairing = dual.pairing / length;
+    result.k = dilatation_of_pairing(2 * pairing / size);
+    double plain = 0;
+    for (int s = 0; s < samples; ++s)
+        if (!chart_.excluded[s]) plain += source_.operators.weights[s] * std::abs(result.phi[s]);
+    result.merit = plain / (size - 2 * pairing);
     return result;
 }
 

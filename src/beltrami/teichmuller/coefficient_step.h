@@ -13,6 +13,8 @@ class CoefficientStep {
         Eigen::VectorXcd direction;  ///< coefficients of φ, of length 1; 0 if nothing pairs with μ
         Eigen::VectorXcd phi;        ///< #S values of φ for these coefficients
         double k = 0;
+        /// 1/I⁻ of the Reich-Strebel inequality for φ and μ (held at 0.95), one point per sample: how good both are.
+        double merit = 0;
         int newton_steps = 0;
         bool converged = false;  ///< of the convex problem
     };

@@ -15,6 +15,8 @@ void ExtremalOptions::validate() const {
     demand(anderson_window >= 0, "anderson_window must not be negative");
     demand(cluster_count >= 100, "cluster_count must be at least 100");
     demand(outer_loop >= 0, "outer_loop must not be negative");
+    demand(!waypoints || (!start && turns.empty()),
+           "waypoints fix the homotopy class: give no turns and no start with them");
 }
 
 HamiltonIteration::Options iteration_options(const ExtremalOptions& options) {

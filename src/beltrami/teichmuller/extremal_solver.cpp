@@ -8,9 +8,11 @@
 #include <beltrami/conformal/domain_chart.h>
 #include <beltrami/differentials/polynomial_space.h>
 #include <beltrami/maps/boundary_feasibility.h>
+#include <beltrami/maps/even_dilatation.h>
 #include <beltrami/maps/fold_free.h>
 #include <beltrami/maps/twist.h>
 #include <beltrami/mesh/error.h>
+#include <beltrami/mesh/planar.h>
 #include <beltrami/teichmuller/coarse_start.h>
 #include <beltrami/teichmuller/problem.h>
 #include <beltrami/teichmuller/solution_bounds.h>
@@ -39,6 +41,10 @@ double deviation(const Operators& operators, const Eigen::VectorXcd& mu, const E
 /// Where the deviation exceeds this part of k, k is no more than a rough estimate.
 constexpr double kRough = 0.6;
 
+/// A map that is farther than this part of k from |μ| = k is evened out.
+constexpr double kUneven = 0.05;
+/// Newton step, as part of the whole, to which the c-step is solved after the iteration.
+constexpr double kFinishingStep = 1e-4;
 /// By so much a corner's bound must exceed K.
 constexpr double kCornerMargin = 0.01;
 
@@ -138,6 +144,11 @@ struct ExtremalSolver::Implementation {
                                                    std::to_string(source.mesh.vertex_count() - added()) + " vertices");
             map = on_split_mesh(*options.start, prepared.split);
             prescribe(map, boundary);
+        } else if (options.waypoints) {
+            const Eigen::VectorXcd places = source.in_plane() && options.outer_loop == 0
+                                                ? planar_coordinates(source.mesh)
+                                                : problem.chart().vertices;
+            map = follow(source, Continuation(source, places, options.outer_loop, boundary, *options.waypoints)).map;
         } else if (!options.turns.empty()) {
             map = start_in_class(source, problem.chart().vertices, options.outer_loop, boundary, options.turns).map;
         } else if (smooth) {
@@ -159,14 +170,46 @@ struct ExtremalSolver::Implementation {
         history = iteration.history();
     }
 
-    /// Opens what folds the iteration has left.
-    bool remove_folds() {
+    bool folded() const {
+        const Eigen::VectorXcd mu = beltrami_coefficient(source.operators, map);
+        return std::any_of(mu.begin(), mu.end(), [](Complex value) { return !(std::norm(value) < 1); });
+    }
+
+    /// What vertices may do after the iteration: those on lines stay where they are.
+    std::vector<Freedom> held() const {
         std::vector<Freedom> freedom = freedoms(boundary, source);
         std::replace(freedom.begin(), freedom.end(), Freedom::sliding, Freedom::fixed);
-        const FoldFreeMap opened = fold_free_map(source, freedom, teichmueller_coefficient(step.k, step.phi), map);
+        return freedom;
+    }
+
+    /// Evens |μ| out, φ and k following the map.
+    bool even_out() {
+        const auto update = [&](const Eigen::VectorXcd& at, Eigen::VectorXcd& phi, double& k) {
+            step = problem.coefficient_step().solve(beltrami_coefficient(source.operators, at), step.direction,
+                                                    kFinishingStep);
+            phi = step.phi;
+            k = step.k;
+            return true;
+        };
+        EvenDilatation evened = even_dilatation(source, held(), map, step.k, step.phi, update);
+        other_factorizations += evened.factorizations;
+        if (!evened.improved) return false;
+        map = std::move(evened.map);
+        return true;
+    }
+
+    /// Opens what folds are left.
+    bool remove_folds() {
+        const FoldFreeMap opened = fold_free_map(source, held(), teichmueller_coefficient(step.k, step.phi), map);
         other_factorizations += opened.factorizations;
         if (opened.fold_free) map = opened.map;
         return opened.fold_free;
+    }
+
+    /// The c-step of a map that came after the iteration.
+    void update_coefficient() {
+        step = problem.coefficient_step().solve(beltrami_coefficient(source.operators, map), step.direction,
+                                                kFinishingStep);
     }
 
     ExtremalMap record() const;
@@ -197,10 +240,16 @@ ExtremalSolver::Update ExtremalSolver::update(const std::vector<Complex>& images
 ExtremalMap ExtremalSolver::solve() {
     Implementation& m = *implementation_;
     m.iterate(iteration_options(m.options));
-    bool folds_removed = false;
-    if (m.options.remove_folds && !distortion(m.source.operators, m.map).flipped.empty())
-        folds_removed = m.remove_folds();
+    using Evening = ExtremalOptions::Evening;
+    const bool needed = m.folded() || deviation(m.source.operators, beltrami_coefficient(m.source.operators, m.map),
+                                                m.step.phi, m.step.k) > kUneven * m.step.k;
+    const bool evened =
+        (m.options.evening == Evening::always || (m.options.evening == Evening::where_needed && needed)) &&
+        m.even_out();
+    const bool folds_removed = m.options.remove_folds && m.folded() && m.remove_folds();
+    if (evened || folds_removed) m.update_coefficient();
     ExtremalMap result = m.record();
+    result.evened = evened;
     result.folds_removed = folds_removed;
     return result;
 }

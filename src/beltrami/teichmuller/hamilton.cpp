@@ -15,12 +15,15 @@ namespace {
 constexpr double kLargest = 0.9999;
 /// The c-step is solved to this part of its change in the last iteration.
 constexpr double kStepBelowChange = 1e-2;
-/// Changes of φ below this that no longer become smaller are rounding.
-constexpr double kStalledBelow = 1e-6;
+/// Changes of φ below this that do not become smaller for some iterations, while k stays, come from zeros of φ.
+constexpr double kStalledBelow = 3e-4, kStalledChangeOfK = 1e-5;
+constexpr int kStalledFor = 4;
 /// Steps taken in a preliminary space.
 constexpr int kPreliminaryIterations = 2;
 /// Acceleration begins once φ changes by less than this.
-constexpr double kAccelerateBelow = 0.5;
+constexpr double kAccelerateBelow = 0.1;
+/// A change above this that hardly falls is a φ that turns back and forth; the least part of a step that is then taken.
+constexpr double kTurnsBack = 0.5, kLeastRelaxation = 0.125;
 /// The f-step is solved to this part of the change that the c-step will see.
 constexpr double kSolveBelowChange = 1e-3;
 
@@ -93,6 +96,11 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
 
     AndersonAcceleration anderson(options_.anderson_window);
     double change = 1, least_change = 1;
+    int since_least = 0;
+    CoefficientStep::Result best;  // what is returned if nothing settles
+    Eigen::VectorXcd best_map;
+    double last_change = 1, relaxation = 1;
+    bool accelerated = false;
     while (iterations_ < options_.max_iterations) {
         const Eigen::VectorXcd phi = coefficient_step_.values(state.direction),
                                nu = teichmueller_coefficient(state.k, phi);
@@ -106,6 +114,10 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
         ++iterations_;
         const Eigen::VectorXcd mu = beltrami_coefficient(source_.operators, map_);
         step_ = coefficient_step_.solve(mu, state.direction, kStepBelowChange * std::min(change, 0.1));
+        if (step_.merit > best.merit) {
+            best = step_;
+            best_map = map_;
+        }
         change = (step_.direction - state.direction).norm();
         const double k_change = std::abs(step_.k - state.k);
         history_.push_back({step_.k, change, state.space->size()});
@@ -114,17 +126,24 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
 
         // Where k vanishes the direction of φ means nothing. Zeros of φ that wander across samples keep its direction
         // from settling entirely.
-        const bool stalled = change < kStalledBelow && !(change < 0.5 * least_change);
-        least_change = std::min(least_change, change);
-        const bool settled = step_.converged && k_change < options_.tolerance &&
-                             (change < options_.tolerance || stalled || step_.k < options_.tolerance);
+        if (change < 0.5 * least_change) {
+            least_change = change;
+            since_least = 0;
+        } else {
+            ++since_least;
+        }
+        const bool stalled = least_change < kStalledBelow && since_least >= kStalledFor && k_change < kStalledChangeOfK;
+        const bool settled =
+            step_.converged && (stalled || (k_change < options_.tolerance &&
+                                            (change < options_.tolerance || step_.k < options_.tolerance)));
         // Growing is decided where the map is exact to rounding, which must not turn the decision: at the start
         // (above), at the first map that comes from another mesh's φ, and in the end.
         if ((from_elsewhere && options_.grow_first && iterations_ == 1) || (settled && options_.grow_last) ||
             (state.space->preliminary() && iterations_ == kPreliminaryIterations)) {
             if (grow(state, mu)) {
                 anderson.reset();
-                change = least_change = 1;
+                change = least_change = relaxation = 1;
+                since_least = 0;
                 state.direction = step_.direction;
                 state.k = std::min(step_.k, kLargest);
                 continue;
@@ -134,7 +153,15 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
             converged_ = true;
             break;
         }
-        if (options_.anderson_window > 0 && change < kAccelerateBelow) {
+        // Acceleration can lead astray where the iteration is not smooth; a plain step then brings it back.
+        const bool astray = accelerated && change > last_change;
+        if (astray) anderson.reset();
+        // Two φ that call for each other in turn are brought together by going half the way.
+        if (change > kTurnsBack && change > 0.8 * last_change)
+            relaxation = std::max(0.5 * relaxation, kLeastRelaxation);
+        last_change = change;
+        accelerated = options_.anderson_window > 0 && change < kAccelerateBelow && !astray;
+        if (accelerated) {
             const Eigen::VectorXd next = anderson.next(pack(state.direction, state.k), pack(step_.direction, step_.k));
             const Eigen::Index m = state.direction.size();
             state.direction.real() = next.head(m);
@@ -142,9 +169,15 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
             state.direction.normalize();
             state.k = std::clamp(next[2 * m], 0.0, kLargest);
         } else {
-            state.direction = step_.direction;
-            state.k = std::min(step_.k, kLargest);
+            state.direction = (state.direction + relaxation * (step_.direction - state.direction)).normalized();
+            state.k = std::min(state.k + relaxation * (step_.k - state.k), kLargest);
         }
+    }
+    if (!converged_ && best.merit > step_.merit) {
+        const Eigen::Index size = state.space->size();
+        map_ = std::move(best_map);
+        step_ = std::move(best);
+        step_.direction.conservativeResizeLike(Eigen::VectorXcd::Zero(size));
     }
     state.direction = step_.direction;
     state.k = step_.k;

@@ -14,9 +14,11 @@ namespace {
 constexpr int kEdgesPerPower = 6;
 constexpr int kLeastPower = 3, kMostPower = 16;
 /// Poles cluster towards a corner from this far, on a hole as part of its radius, to this part of an edge.
-constexpr double kReach = 1.0, kHoleReach = 0.8, kFinest = 0.25;
-/// The most significant corners count.
-constexpr std::size_t kMostCorners = 48;
+constexpr double kReach = 1.0, kHoleReach = 0.8, kFinest = 0.4;
+/// A corner with fewer edges to the next one is not resolved, and gets no poles.
+constexpr int kLeastGap = 6;
+/// Samples for every function at a corner: the most significant corners come first.
+constexpr int kSamplesPerFunction = 40;
 
 /// See ExtremalProblem::phase.
 double phase_of(const Chart& chart, const BoundaryCondition& boundary) {
@@ -65,16 +67,26 @@ Singularities singularities_of(const Surface& source, const Chart& chart, const 
     }
     for (const int v : boundary.vertices)
         if (!source.topology.on_boundary[v]) result.pins.push_back(chart.vertices[v]);
-    for (std::size_t i = 0; i < std::min(corners.size(), kMostCorners); ++i) {
-        const auto& loop = source.topology.boundary_loops[corners[i].loop];
-        const auto n = loop.size(), at = static_cast<std::size_t>(corners[i].position);
-        const Complex vertex = chart.vertices[loop[at]], next = chart.vertices[loop[(at + 1) % n]],
-                      last = chart.vertices[loop[(at + n - 1) % n]];
-        const Complex along = next - last;
-        if (!(std::abs(along) > 0)) continue;
+    const int budget = source.operators.sample_count() / (kSamplesPerFunction * RationalSpace::corner_poles);
+    for (const BoundaryCorner& corner : corners) {
+        if (static_cast<int>(result.corners.size()) >= budget) break;
+        const auto& loop = source.topology.boundary_loops[corner.loop];
+        const auto n = static_cast<int>(loop.size());
+        const auto at = [&](int position) { return chart.vertices[loop[((position % n) + n) % n]]; };
+        // Room until the next corner on either side: beyond, that one's poles do as well.
+        int gap = n / 2;
         double reach = kReach;
         for (const Chart::Hole& hole : chart.holes)
-            if (hole.loop == corners[i].loop) reach = kHoleReach * hole.radius;
+            if (hole.loop == corner.loop) reach = kHoleReach * hole.radius;
+        for (const BoundaryCorner& other : corners) {
+            if (other.loop != corner.loop || other.position == corner.position) continue;
+            const int apart = std::abs(other.position - corner.position);
+            gap = std::min({gap, apart, n - apart});
+            reach = std::min(reach, std::abs(at(other.position) - at(corner.position)));
+        }
+        const Complex vertex = at(corner.position), next = at(corner.position + 1), last = at(corner.position - 1);
+        const Complex along = next - last;
+        if (gap < kLeastGap || !(std::abs(along) > 0)) continue;
         const double edge = 0.5 * (std::abs(next - vertex) + std::abs(vertex - last));
         result.corners.push_back({vertex, Complex(0, -1) * along / std::abs(along), reach, kFinest * edge});
     }

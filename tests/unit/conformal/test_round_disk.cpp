@@ -72,9 +72,11 @@ double error_of(int triangles, bool in_space, int sliding_steps) {
 
 TEST(RoundDisk, ConvergesToTheRiemannMapWithSecondOrder) {
     for (const bool in_space : {false, true}) {
-        const double coarse = error_of(1500, in_space, 0), fine = error_of(24000, in_space, 0);
-        EXPECT_LT(fine, 2e-3) << in_space;
-        EXPECT_GT(std::log2(coarse / fine) / 2, 1.5) << in_space;
+        // Both below the size from which Green's function is taken, whose order has a test of its own.
+        const double coarse = error_of(1500, in_space, 0), fine = error_of(6000, in_space, 0);
+        EXPECT_LT(fine, 5e-4) << in_space;
+        EXPECT_GT(std::log2(coarse / fine), 1.5) << in_space;
+        EXPECT_LT(error_of(24000, in_space, 0), 5e-4) << in_space;
     }
 }
 
@@ -90,7 +92,7 @@ TEST(RoundDisk, RefusesOtherTopologies) {
 TEST(CentreInDisk, BringsTheMeanToZeroByAMoebiusMap) {
     Eigen::VectorXcd points = complex_positions(disk(6));
     points = points.unaryExpr([](Complex z) { return (z + Complex(0.5, 0.3)) / (1.0 + Complex(0.5, -0.3) * z); });
-    centre_in_disk(points, std::vector<double>(points.size(), 1.0));
+    centre_in_disk(points, Eigen::VectorXd::Ones(points.size()));
     EXPECT_LT(std::abs(points.mean()), 1e-12);
     for (int v = 0; v < 36; ++v) EXPECT_NEAR(std::abs(points[points.size() - 1 - v]), 1, 1e-12);
 }

@@ -91,6 +91,30 @@ TEST(NumberLists, ReadsRows) {
     EXPECT_EQ(read_indexed_rows(folder / "empty.txt", 1, 13, 2, "a pin").indices.rows(), 0);
 }
 
+TEST(NumberLists, StarsAreLeftOpenWhereTheyMay) {
+    const TemporaryFolder folder;
+    put(folder / "pins.txt", "3 * 1.5\n4 -2 *  # the height is free\n");
+    const IndexedRows read = read_indexed_rows(folder / "pins.txt", 1, 13, 2, "a pin", Stars::read_as_nan);
+    ASSERT_EQ(read.indices.rows(), 2);
+    EXPECT_TRUE(std::isnan(read.values(0, 0)));
+    EXPECT_EQ(read.values(0, 1), 1.5);
+    EXPECT_EQ(read.values(1, 0), -2);
+    EXPECT_TRUE(std::isnan(read.values(1, 1)));
+    for (const auto& [part, text] : std::vector<std::pair<std::string, std::string>>{
+             {"pins.txt:1: '*5' is neither a number nor *", "3 *5 1\n"},
+             {"pins.txt:1: '*' is not a number", "* 5 1\n"},
+             {"pins.txt:2: a pin holds a value that is no number", "1 2 *\n3 nan 1\n"},
+             {"pins.txt:1: the line ends", "3 *\n"},
+             {"the line holds more", "3 * 1 *\n"}}) {
+        put(folder / "pins.txt", text);
+        expect_error(Cause::unreadable, part,
+                     [&] { read_indexed_rows(folder / "pins.txt", 1, 13, 2, "a pin", Stars::read_as_nan); });
+    }
+    put(folder / "pins.txt", "3 * 1\n");
+    expect_error(Cause::unreadable, "'*' is not a number",
+                 [&] { read_indexed_rows(folder / "pins.txt", 1, 13, 2, "a pin"); });
+}
+
 TEST(NumberLists, ErrorsNameFileAndLine) {
     const TemporaryFolder folder;
     const auto expect_refusal = [&](const std::string& part, const std::string& text) {

@@ -91,6 +91,61 @@ TEST(BeltramiSolver, SolveNearIsTheSameMap) {
     EXPECT_EQ(old.factorization_count(), 2);
 }
 
+TEST(BeltramiSolver, AnOffsetIsMadeUpFor) {
+    // With the offset (∂̄ − ν∂)q the sum f + q is the map that has its boundary values, whatever q is.
+    for (const Mesh& mesh : {test::jittered_square(8), test::mixed_square(7)}) {
+        const Surface surface(mesh);
+        const Complex nu(0.3, -0.2);
+        for (const bool whole_boundary : {true, false}) {
+            std::vector<Freedom> freedom(mesh.vertex_count(), Freedom::free);
+            const auto& loop = surface.topology.boundary_loops[0];
+            for (std::size_t i = 0; i < (whole_boundary ? loop.size() : 3); ++i) freedom[loop[i]] = Freedom::fixed;
+            BeltramiSolver solver(surface, freedom, 1);
+            ASSERT_EQ(solver.decoupled(), whole_boundary);
+            solver.factorize(constant(surface, nu));
+            const Eigen::VectorXcd values = complex_positions(mesh).unaryExpr([](Complex z) { return z * z * z; });
+            const Eigen::VectorXcd q = Eigen::VectorXcd::Random(mesh.vertex_count());
+            Eigen::VectorXcd offset(surface.operators.sample_count());
+            for (int s = 0; s < offset.size(); ++s) {
+                const auto [dz, dzbar] = surface.operators.derivatives(s, q);
+                offset[s] = dzbar - nu * dz;
+            }
+            const Eigen::VectorXcd f = solver.solve(values - q, offset);
+            EXPECT_LT((f + q - solver.solve(values)).cwiseAbs().maxCoeff(), 1e-11);
+        }
+    }
+}
+
+TEST(BeltramiSolver, PoissonsEquationIsSolved) {
+    const Mesh mesh = disk(24);
+    const Surface surface(mesh);
+    const Operators& operators = surface.operators;
+    std::vector<Freedom> freedom(mesh.vertex_count(), Freedom::free);
+    for (const int v : surface.topology.boundary_loops[0]) freedom[v] = Freedom::fixed;
+    BeltramiSolver solver(surface, freedom, 1);
+    solver.factorize(constant(surface, 0));
+
+    // −Δu = 1 on the unit disk has u = (1 − |z|²)/4.
+    Eigen::VectorXd load = Eigen::VectorXd::Zero(mesh.vertex_count());
+    for (int s = 0; s < operators.sample_count(); ++s)
+        for (const int v : operators.stencil(s)) load[v] += operators.weights[s] / 3;
+    const Eigen::VectorXd exact = 0.25 * (1 - complex_positions(mesh).array().abs2());
+    EXPECT_LT((solver.solve_poisson(load) - exact).cwiseAbs().maxCoeff(), 1e-3);
+
+    // Any function of the mesh comes back from its own ∫ ∇u·∇v.
+    Eigen::VectorXd u = Eigen::VectorXd::Random(mesh.vertex_count());
+    for (const int v : surface.topology.boundary_loops[0]) u[v] = 0;
+    load.setZero();
+    for (int s = 0; s < operators.sample_count(); ++s) {
+        const auto v = operators.stencil(s);
+        const auto g = operators.gradient(s);
+        Complex gradient = 0;
+        for (int j = 0; j < 3; ++j) gradient += u[v[j]] * g[j];
+        for (int j = 0; j < 3; ++j) load[v[j]] += operators.weights[s] * std::real(std::conj(gradient) * g[j]);
+    }
+    EXPECT_LT((solver.solve_poisson(load) - u).cwiseAbs().maxCoeff(), 1e-12);
+}
+
 TEST(BeltramiSolver, NamesVerticesThatNothingHolds) {
     // Two squares side by side; only the first is pinned.
     Mesh mesh = test::jittered_square(3), both = mesh;

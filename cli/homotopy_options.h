@@ -1,0 +1,32 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <beltrami/teichmuller/extremal_map.h>
+
+#include "files.h"
+
+namespace beltrami::cli {
+
+/// --turns and --waypoints: which homotopy class of maps is meant, where the surface has holes.
+class HomotopyOptions {
+  public:
+    void add_to(CLI::App& app);
+    /// The files the options name.
+    std::vector<NamedFile> inputs() const;
+    bool given() const { return !turns_.empty() || !waypoint_file_.empty(); }
+    /// Reads the options and their files. @throw Error bad_option, unreadable
+    void load();
+    /// Hands the class to the solver. @pre load() @throw Error bad_option naming a loop that cannot turn
+    void apply(const Surface& source, ExtremalOptions& options) const;
+
+  private:
+    void require_hole(const Surface& source, int loop, int outer_loop, const std::string& option) const;
+
+    std::vector<std::string> turns_;
+    std::string waypoint_file_;
+    std::vector<std::pair<int, int>> turns_of_loops_;
+    std::vector<Waypoint> waypoints_;
+};
+
+}  // namespace beltrami::cli

@@ -1,0 +1,127 @@
+#include "map_methods.h"
+
+#include <map>
+
+#include <beltrami/baselines/baseline.h>
+
+#include "command.h"
+#include "page.h"
+
+namespace beltrami::cli {
+
+namespace {
+
+using Baseline = BaselineMap (*)(const Surface&, const BoundaryCondition&, const BaselineOptions&);
+
+const std::map<std::string, Baseline>& baselines() {
+    static const std::map<std::string, Baseline> methods{{"harmonic", harmonic_baseline},
+                                                         {"lscm", lscm_baseline},
+                                                         {"arap", arap_baseline},
+                                                         {"mips", mips_baseline},
+                                                         {"alternation", alternation_baseline},
+                                                         {"qc", qc_iteration_baseline}};
+    return methods;
+}
+
+std::optional<Surface> split_surface(const std::optional<SplitProblem>& split) {
+    if (!split) return {};
+    return split->metric ? Surface(split->mesh, *split->metric) : Surface(split->mesh);
+}
+
+void append(std::vector<std::string>& warnings, const std::vector<std::string>& more) {
+    warnings.insert(warnings.end(), more.begin(), more.end());
+}
+
+/// What an extremal map says beyond its numbers.
+void record_findings(const ExtremalMap& result, const Surface& source, Record& record) {
+    if (!result.homotopy.holes.empty()) record.homotopy = result.homotopy;
+    record.corners = corners_record(result);
+    if (result.split) record.split = split_record(*result.split, source.mesh.vertex_count());
+    append(record.warnings, result.warnings);
+}
+
+}  // namespace
+
+const std::vector<std::string>& baseline_names() {
+    static const std::vector<std::string> names{"harmonic", "lscm", "arap", "mips", "alternation", "qc"};
+    return names;
+}
+
+MethodResult run_extremal(const Surface& source, const BoundaryCondition& boundary, ExtremalOptions options,
+                          double start, bool show, Record& record) {
+    ExtremalMap result = [&] {
+        Progress progress(show);  // gone before anything else is printed
+        options.progress = [&](int iteration, double k) {
+            progress.show(iteration, k);
+            return true;
+        };
+        return extremal_map(source, boundary, options);
+    }();
+    record.solve = solve_record(result, seconds() - start);
+    record.map = map_record(result);
+    record_findings(result, source, record);
+    MethodResult done;
+    done.split = split_surface(result.split);
+    const Surface& used = done.split ? *done.split : source;
+    done.history = std::move(result.history);
+    done.pages.push_back({"extremal", positions_of(result.map), result.distortion.face_abs_mu});
+    done.pages.push_back(
+        {"harmonic", positions_of(result.harmonic), distortion(used.operators, result.harmonic).face_abs_mu});
+    done.map = std::move(result.map);
+    done.distortion = std::move(result.distortion);
+    return done;
+}
+
+MethodResult run_least_maximum(const Surface& source, const BoundaryCondition& boundary, ExtremalOptions options,
+                               double start, bool show, Record& record) {
+    LeastMaximumOptions how;
+    how.extremal = std::move(options);
+    LeastMaximumMap result = [&] {
+        Progress progress(show);
+        how.extremal.progress = [&](int iteration, double k) {
+            progress.show(iteration, k);
+            return true;
+        };
+        how.progress = [&](int iteration, double energy) {
+            progress.show(iteration, energy, "energy");
+            return true;
+        };
+        return least_maximum_map(source, boundary, how);
+    }();
+    record.solve = solve_record(result, seconds() - start);
+    record.map = map_record(result);
+    record.least_maximum = {how.power, result.start_max, result.distortion.max};
+    if (result.extremal) {
+        record_findings(*result.extremal, source, record);
+    } else if (result.split) {
+        record.split = split_record(*result.split, source.mesh.vertex_count());
+    }
+    append(record.warnings, result.warnings);
+    MethodResult done;
+    done.split = split_surface(result.split);
+    done.pages.push_back({"least maximum", positions_of(result.map), result.distortion.face_abs_mu});
+    if (result.extremal)
+        done.pages.push_back({"extremal", positions_of(result.extremal->map), result.extremal->distortion.face_abs_mu});
+    done.map = std::move(result.map);
+    done.distortion = std::move(result.distortion);
+    return done;
+}
+
+MethodResult run_baseline(const Surface& source, const BoundaryCondition& boundary, const std::string& method,
+                          double start, MethodRecord& record, std::vector<std::string>& warnings) {
+    BaselineMap result = baselines().at(method)(source, boundary, {});
+    record.method = method;
+    record.solve.seconds_total = seconds() - start;
+    record.solve.iterations = result.iterations;
+    record.solve.factorizations = result.factorizations;
+    record.solve.termination = to_string(result.converged ? Termination::converged : Termination::iteration_limit);
+    MethodResult done;
+    done.distortion = distortion(source.operators, result.map);
+    record.map = map_record(done.distortion);
+    for (const std::string& warning : result.warnings) warnings.push_back(method + ": " + warning);
+    done.pages.push_back({method, positions_of(result.map), done.distortion.face_abs_mu});
+    done.map = std::move(result.map);
+    return done;
+}
+
+}  // namespace beltrami::cli

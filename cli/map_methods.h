@@ -1,0 +1,34 @@
+#pragma once
+
+#include <beltrami/report/page.h>
+#include <beltrami/report/record.h>
+
+namespace beltrami::cli {
+
+/// Names of the methods besides "extremal".
+const std::vector<std::string>& baseline_names();
+
+/// A map with what the outputs show of it. The mesh is the source's, or the split one.
+struct MethodResult {
+    std::optional<Surface> split;  ///< the mesh that was mapped, if it is not the source itself
+    Eigen::VectorXcd map;          ///< #V
+    Distortion distortion;         ///< of map
+    std::vector<PageMap> pages;    ///< the map first
+    std::vector<Iteration> history;
+};
+
+/// The extremal map. Fills the record's map, solve, homotopy, corners, split and warnings.
+/// @param start      when the clock was started
+/// @param show       whether the terminal may show the iterations
+MethodResult run_extremal(const Surface& source, const BoundaryCondition& boundary, ExtremalOptions options,
+                          double start, bool show, Record& record);
+
+/// The map of least largest |μ|; fills least_maximum too.
+MethodResult run_least_maximum(const Surface& source, const BoundaryCondition& boundary, ExtremalOptions options,
+                               double start, bool show, Record& record);
+
+/// Another method.
+MethodResult run_baseline(const Surface& source, const BoundaryCondition& boundary, const std::string& method,
+                          double start, MethodRecord& record, std::vector<std::string>& warnings);
+
+}  // namespace beltrami::cli

@@ -1,0 +1,101 @@
+#include <beltrami/teichmuller/least_maximum.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <beltrami/maps/beltrami_solver.h>
+#include <beltrami/maps/boundary_feasibility.h>
+#include <beltrami/mesh/error.h>
+
+namespace beltrami {
+
+namespace {
+
+/// The least-squares conformal map with what is prescribed. Nothing prescribed, or one image only: that of the free
+/// boundary, moved to the image.
+Eigen::VectorXcd conformal_start(const Surface& source, const BoundaryCondition& boundary) {
+    if (!boundary.lines.empty() || boundary.vertices.size() > 1) {
+        BeltramiSolver solver(source, freedoms(boundary, source), 1);
+        solver.factorize(Eigen::VectorXcd::Zero(source.operators.sample_count()), line_directions(boundary, source));
+        return solver.solve(prescribed_values(boundary, source));
+    }
+    const Eigen::VectorXcd map = least_squares_conformal_map(source, {});
+    if (boundary.vertices.empty()) return map;
+    return map.array() + (boundary.images[0] - map[boundary.vertices[0]]);
+}
+
+void require_open_component(const Surface& source) {
+    if (source.topology.components != 1)
+        throw Error(Cause::bad_mesh, "the mesh has " + std::to_string(source.topology.components) + " components",
+                    "keep one of them, or map each by itself");
+    if (source.topology.boundary_loops.empty())
+        throw Error(Cause::bad_mesh, "the mesh is a closed surface, which has no map to the plane without folds",
+                    "cut it open first");
+}
+
+/// The split of a problem with free boundary vertices; nothing where nothing had to be split.
+std::optional<SplitProblem> split_of(const Surface& source, const BoundaryCondition& boundary,
+                                     const LeastMaximumOptions& options) {
+    if (!options.extremal.split_prescribed) return {};
+    SplitProblem split = split_prescribed(source, boundary);
+    if (split.split_edges == 0) return {};
+    return split;
+}
+
+}  // namespace
+
+void LeastMaximumOptions::validate() const {
+    FoldFreeOptions{power, max_iterations, tolerance, {}}.validate();
+    extremal.validate();
+}
+
+LeastMaximumMap least_maximum_map(const Surface& source, const BoundaryCondition& boundary,
+                                  const LeastMaximumOptions& options) {
+    options.validate();
+    require_open_component(source);
+    validate(boundary, source);
+    LeastMaximumMap result;
+    Eigen::VectorXcd start;
+    if (unprescribed_boundary(boundary, source).empty()) {
+        result.extremal = extremal_map(source, boundary, options.extremal);
+        start = result.extremal->map;
+        result.split = result.extremal->split;
+        result.factorizations = result.extremal->factorizations;
+    } else {
+        if (source.topology.genus == 0) require_feasible(source, boundary, options.extremal.outer_loop);
+        result.split = split_of(source, boundary, options);
+    }
+    std::optional<Surface> split_surface;
+    if (result.split)
+        split_surface =
+            result.split->metric ? Surface(result.split->mesh, *result.split->metric) : Surface(result.split->mesh);
+    const Surface& surface = split_surface ? *split_surface : source;
+    if (start.size() == 0) {
+        start = conformal_start(surface, boundary);
+        result.factorizations += 1;
+    }
+    result.start_max = distortion(surface.operators, start).max;
+
+    std::vector<Freedom> freedom = freedoms(boundary, surface);
+    std::replace(freedom.begin(), freedom.end(), Freedom::sliding, Freedom::fixed);
+    FoldFreeMap found = fold_free_map(surface, freedom, Eigen::VectorXcd::Zero(surface.operators.sample_count()), start,
+                                      {options.power, options.max_iterations, options.tolerance, options.progress});
+    result.map = std::move(found.map);
+    result.fold_free = found.fold_free;
+    result.status = found.status;
+    result.iterations = found.iterations;
+    result.factorizations += found.factorizations;
+    result.history = std::move(found.history);
+    result.distortion = distortion(surface.operators, result.map);
+    if (!result.fold_free)
+        result.warnings.push_back(found.status == FoldFreeStatus::impossible
+                                      ? "the prescribed vertices alone force a fold"
+                                      : std::to_string(result.distortion.flipped.size()) +
+                                            " flipped faces could not be opened");
+    if (found.status == FoldFreeStatus::iteration_limit)
+        result.warnings.push_back("stopped after " + std::to_string(result.iterations) +
+                                  " Newton steps before the largest |μ| settled");
+    return result;
+}
+
+}  // namespace beltrami
