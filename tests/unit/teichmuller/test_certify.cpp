@@ -34,13 +34,11 @@ TEST(Certify, AnExactMapAtOnce) {
 }
 
 TEST(Certify, AfterARefinement) {
-    const Surface surface(disk(27));
-    ExtremalOptions options;
-    options.max_iterations = 12;
-    const Certification c = certify(surface, test::boundary_values(surface, test::three_lobes), 2.5e-4, options);
-    expect_consistent(c, 2.5e-4);
+    const Surface surface(disk(14));
+    const Certification c = certify(surface, test::boundary_values(surface, test::three_lobes), 1.2e-3);
+    expect_consistent(c, 1.2e-3);
     EXPECT_TRUE(c.reached) << c.reason;
-    EXPECT_EQ(c.refinements, 1);
+    EXPECT_GE(c.refinements, 1);
     EXPECT_EQ(c.result.map.size(), surface.mesh.vertex_count());
     // The finer mesh's chart is not exact; what the given mesh proves is still told.
     int proofs = 0, estimates = 0;
