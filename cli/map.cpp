@@ -36,6 +36,11 @@ class Map final : public Command {
                         "folds, starting from the extremal map; parts of the boundary may be free")
             ->check(CLI::IsMember({"K", "max"}))
             ->capture_default_str();
+        app->add_option("--certify", certify_,
+                        "refine the mesh until K is at most P percent above its lower bound, and say why where that "
+                        "cannot be had; the map stays on SOURCE's mesh")
+            ->check(CLI::PositiveNumber)
+            ->type_name("P");
         boundary_.add_to(*app);
         homotopy_.add_to(*app);
         metric_.add_to(*app);
@@ -89,7 +94,11 @@ class Map final : public Command {
         add(metric_.inputs());
         inputs.push_back({"SOURCE", source_});
         common_.check_files(inputs, {{"-o", output_.path()}});
+        if (certify_ && minimize_ == "max")
+            throw Error(Cause::bad_option, "--certify is about the extremal map, not about --minimize max",
+                        "leave one of them out");
         if (method_ == "extremal") return;
+        if (certify_) throw Error(Cause::bad_option, "--certify belongs to --method extremal");
         if (homotopy_.given())
             throw Error(Cause::bad_option, "--turns and --waypoints belong to --method extremal",
                         "the other methods take the homotopy class as it comes");
@@ -102,8 +111,10 @@ class Map final : public Command {
             ExtremalOptions options;
             options.outer_loop = boundary_.outer_loop();
             homotopy_.apply(source, options);
-            const auto run = minimize_ == "max" ? run_least_maximum : run_extremal;
-            return run(source, boundary, std::move(options), start, !common_.quiet, record);
+            if (minimize_ == "max")
+                return run_least_maximum(source, boundary, std::move(options), start, !common_.quiet, record);
+            const std::optional<double> gap = certify_ ? std::optional(*certify_ / 100) : std::nullopt;
+            return run_extremal(source, boundary, std::move(options), gap, start, !common_.quiet, record);
         }
         MethodRecord main;
         MethodResult result = run_baseline(source, boundary, method_, start, main, record.warnings);
@@ -131,6 +142,7 @@ class Map final : public Command {
     }
 
     std::string source_, method_ = "extremal", minimize_ = "K";
+    std::optional<double> certify_;
     std::vector<std::string> compare_;
     OutputOptions output_;
     BoundaryOptions boundary_;

@@ -3,6 +3,7 @@
 #include <map>
 
 #include <beltrami/baselines/baseline.h>
+#include <beltrami/teichmuller/certify.h>
 
 #include "command.h"
 #include "page.h"
@@ -48,14 +49,17 @@ const std::vector<std::string>& baseline_names() {
 }
 
 MethodResult run_extremal(const Surface& source, const BoundaryCondition& boundary, ExtremalOptions options,
-                          double start, bool show, Record& record) {
+                          std::optional<double> gap, double start, bool show, Record& record) {
     ExtremalMap result = [&] {
         Progress progress(show);  // gone before anything else is printed
         options.progress = [&](int iteration, double k) {
             progress.show(iteration, k);
             return true;
         };
-        return extremal_map(source, boundary, options);
+        if (!gap) return extremal_map(source, boundary, options);
+        Certification certified = certify(source, boundary, *gap, options);
+        record.certificate = {*gap, certified.gap, certified.reached, certified.refinements, certified.reason};
+        return std::move(certified.result);
     }();
     record.solve = solve_record(result, seconds() - start);
     record.map = map_record(result);

@@ -19,9 +19,10 @@ struct MethodResult {
 
 /// The extremal map. Fills the record's map, solve, homotopy, corners, split and warnings.
 /// @param start      when the clock was started
+/// @param gap        wanted of K/K_lower − 1, by refinements; nothing: as it comes
 /// @param show       whether the terminal may show the iterations
 MethodResult run_extremal(const Surface& source, const BoundaryCondition& boundary, ExtremalOptions options,
-                          double start, bool show, Record& record);
+                          std::optional<double> gap, double start, bool show, Record& record);
 
 /// The map of least largest |μ|; fills least_maximum too.
 MethodResult run_least_maximum(const Surface& source, const BoundaryCondition& boundary, ExtremalOptions options,

@@ -31,12 +31,14 @@
 #include <beltrami/mesh/diagnosis.h>
 #include <beltrami/mesh/error.h>
 #include <beltrami/mesh/mesh.h>
+#include <beltrami/mesh/planar.h>
 #include <beltrami/mesh/subdivide.h>
 #include <beltrami/mesh/submesh.h>
 #include <beltrami/mesh/topology.h>
 #include <beltrami/operators/distortion.h>
 #include <beltrami/operators/surface.h>
 #include <beltrami/teichmuller/certificate.h>
+#include <beltrami/teichmuller/certify.h>
 #include <beltrami/teichmuller/extremal_map.h>
 #include <beltrami/teichmuller/extremal_solver.h>
 #include <beltrami/teichmuller/least_maximum.h>

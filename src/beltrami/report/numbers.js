@@ -85,6 +85,10 @@ function writeSentence() {
         const { before, after } = record.least_maximum;
         sentences.push(`The largest |μ| of a face was ${fixed(before)} and is now ${fixed(after)}.`);
     }
+    if (record.certificate) {
+        const { wanted, reached, reason } = record.certificate;
+        sentences.push(`The wanted certificate of ${percent(wanted)} was ${reached ? "" : "not "}reached: ${reason}.`);
+    }
     if (record.homotopy) sentences.push(turnsInWords(record.homotopy));
     if (solve.termination) {
         const steps = isNumber(solve.iterations) ? ` after ${count(solve.iterations, "iteration")}` : "";

@@ -147,7 +147,7 @@ MapRecord map_record(const LeastMaximumMap& result) {
     if (result.extremal) {
         // k, K and the attained value are those of another map; what is below K* is below every map's K.
         for (const Bound& bound : result.extremal->bounds)
-            if (bound.kind != "attained" && bound.kind != "reich_strebel_estimate") record.bounds.push_back(bound);
+            if (bound.kind != "attained" && !bound.kind.ends_with("_estimate")) record.bounds.push_back(bound);
         if (result.extremal->distortion.flipped.empty()) record.K_lower = result.extremal->K_lower;
         record.boundary_residual = result.extremal->boundary_residual;
     }
@@ -212,6 +212,12 @@ std::string to_json(const Record& record) {
     if (record.homotopy) json["homotopy"] = to_object(*record.homotopy);
     if (record.corners) json["corners"] = to_object(*record.corners);
     if (record.split) json["split"] = {{"edges", record.split->edges}, {"added", record.split->added}};
+    if (record.certificate)
+        json["certificate"] = {{"wanted", number(record.certificate->wanted)},
+                               {"gap", number(record.certificate->gap)},
+                               {"reached", record.certificate->reached},
+                               {"refinements", record.certificate->refinements},
+                               {"reason", record.certificate->reason}};
     if (record.least_maximum)
         json["least_maximum"] = {{"power", record.least_maximum->power},
                                  {"before", number(record.least_maximum->before)},
@@ -266,12 +272,18 @@ std::string to_remarks(const Record& record) {
         text += "the iteration left flipped faces; a fold-free solve opened them\n";
     if (record.corners && record.corners->count > 0) {
         const CornersRecord& corners = *record.corners;
-        text += fmt::format("source and boundary values have {} {}", corners.count, corners.count == 1 ? "corner" : "corners");
+        text += fmt::format("source and boundary values have {} {}", corners.count,
+                            corners.count == 1 ? "corner" : "corners");
         if (corners.sharpest)
             text += fmt::format("; at vertex {} they force a stretch of about K = {:.3f} (estimate)",
                                 corners.sharpest->vertex, corners.sharpest->safe_bound);
         text += "\n";
     }
+    if (record.certificate)
+        text += fmt::format("certificate of {:.3g} %: {}; {} ({} {})\n", 100 * record.certificate->wanted,
+                            record.certificate->reached ? "reached" : "not reached", record.certificate->reason,
+                            record.certificate->refinements,
+                            record.certificate->refinements == 1 ? "refinement" : "refinements");
     if (record.least_maximum)
         text += fmt::format("largest |mu| of a face: {:.4f} before, {:.4f} after\n", record.least_maximum->before,
                             record.least_maximum->after);

@@ -60,6 +60,14 @@ struct LeastMaximumRecord {
     double before = 0, after = 0;  ///< largest |μ| of the start and of the map
 };
 
+/// What a wanted gap between K and its lower bound has come to (certify.h).
+struct CertificateRecord {
+    double wanted = 0, gap = 0;  ///< K/K_lower − 1
+    bool reached = false;
+    int refinements = 0;
+    std::string reason;
+};
+
 /// One line of a comparison.
 struct MethodRecord {
     std::string method;
@@ -76,6 +84,7 @@ struct Record {
     std::optional<HomotopyClass> homotopy;  ///< of the map, where there are holes
     std::optional<CornersRecord> corners;
     std::optional<SplitRecord> split;
+    std::optional<CertificateRecord> certificate;
     std::optional<LeastMaximumRecord> least_maximum;
     std::vector<MethodRecord> comparison;
     std::vector<std::string> warnings;

@@ -84,6 +84,7 @@ Certification certify(const Surface& source, const BoundaryCondition& boundary, 
 
     std::optional<RefinedProblem> level;
     Eigen::VectorXcd last = done.result.map.head(source.mesh.vertex_count());
+    own.waypoints.reset();  // the finer meshes start from the last map
     own.sharpen = 0;
     own.growth = std::min(options.growth, kGrowthOfGap * gap);
     while (true) {

@@ -43,6 +43,10 @@ constexpr double kRough = 0.6;
 
 /// A map that is farther than this part of k from |μ| = k is evened out.
 constexpr double kUneven = 0.05;
+/// Where evening out is to be expected, the iteration ends at this change of φ, its square of k, or after so many
+/// steps.
+constexpr double kRoughTolerance = 0.03;
+constexpr int kRoughIterations = 16;
 /// Newton step, as part of the whole, to which the c-step is solved after the iteration.
 constexpr double kFinishingStep = 1e-4;
 /// By so much a corner's bound must exceed K.
@@ -160,19 +164,27 @@ struct ExtremalSolver::Implementation {
 
     /// Runs the iteration from where it stands.
     void iterate(HamiltonIteration::Options how) {
-        how.near_last_factor = state.space && !history.empty();
+        how.near_last_factor = state.space && problem.solver().factorization_count() > 1;
         HamiltonIteration iteration(source, problem.map_step(), problem.coefficient_step(), how);
         iteration.run(state, map,
                       problem.starting_space(PolynomialSpace::largest_degree(source.operators.sample_count())));
         map = iteration.map();
         step = iteration.last_step();
         converged = iteration.converged();
-        history = iteration.history();
+        // A run that goes on begins with where the last one ended.
+        const auto& steps = iteration.history();
+        history.insert(history.end(), steps.begin() + (history.empty() ? 0 : 1), steps.end());
     }
 
     bool folded() const {
         const Eigen::VectorXcd mu = beltrami_coefficient(source.operators, map);
         return std::any_of(mu.begin(), mu.end(), [](Complex value) { return !(std::norm(value) < 1); });
+    }
+
+    /// Whether the map is far from |μ| = k, or folded.
+    bool uneven() const {
+        return folded() || deviation(source.operators, beltrami_coefficient(source.operators, map), step.phi, step.k) >
+                               kUneven * step.k;
     }
 
     /// What vertices may do after the iteration: those on lines stay where they are.
@@ -231,6 +243,7 @@ ExtremalSolver::Update ExtremalSolver::update(const std::vector<Complex>& images
     HamiltonIteration::Options how = iteration_options(m.options);
     how.max_iterations = max_iterations;
     how.grow_first = how.grow_last = false;
+    m.history.clear();
     m.iterate(how);
     const Eigen::VectorXcd mu = beltrami_coefficient(m.source.operators, m.map);
     const auto flipped = std::count_if(mu.begin(), mu.end(), [](Complex value) { return !(std::norm(value) < 1); });
@@ -239,13 +252,26 @@ ExtremalSolver::Update ExtremalSolver::update(const std::vector<Complex>& images
 
 ExtremalMap ExtremalSolver::solve() {
     Implementation& m = *implementation_;
-    m.iterate(iteration_options(m.options));
     using Evening = ExtremalOptions::Evening;
-    const bool needed = m.folded() || deviation(m.source.operators, beltrami_coefficient(m.source.operators, m.map),
-                                                m.step.phi, m.step.k) > kUneven * m.step.k;
-    const bool evened =
-        (m.options.evening == Evening::always || (m.options.evening == Evening::where_needed && needed)) &&
-        m.even_out();
+    m.history.clear();
+    bool evened = false;
+    if (m.problem.singular() && m.options.evening != Evening::never) {
+        // Evening out moves φ more than the last digits of the iteration do.
+        HamiltonIteration::Options rough = iteration_options(m.options);
+        rough.tolerance = std::max(rough.tolerance, kRoughTolerance);
+        rough.k_tolerance = std::max(rough.k_tolerance, kRoughTolerance * kRoughTolerance);
+        rough.max_iterations = std::min(rough.max_iterations, kRoughIterations);
+        rough.grow_last = false;
+        m.iterate(rough);
+        evened = m.converged && m.uneven() && m.even_out();
+    }
+    if (!evened) {
+        HamiltonIteration::Options rest = iteration_options(m.options);
+        rest.max_iterations -= std::max(0, static_cast<int>(m.history.size()) - 1);
+        if (rest.max_iterations > 0) m.iterate(rest);
+        evened = (m.options.evening == Evening::always || (m.options.evening == Evening::where_needed && m.uneven())) &&
+                 m.even_out();
+    }
     const bool folds_removed = m.options.remove_folds && m.folded() && m.remove_folds();
     if (evened || folds_removed) m.update_coefficient();
     ExtremalMap result = m.record();
