@@ -133,10 +133,9 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
             ++since_least;
         }
         const bool stalled = least_change < kStalledBelow && since_least >= kStalledFor && k_change < kStalledChangeOfK;
-        const bool settled =
-            !state.space->preliminary() && step_.converged &&
-            (stalled || (k_change < options_.k_tolerance &&
-                                            (change < options_.tolerance || step_.k < options_.k_tolerance)));
+        const bool settled = !state.space->preliminary() && step_.converged &&
+                             (stalled || (k_change < options_.k_tolerance &&
+                                          (change < options_.tolerance || step_.k < options_.k_tolerance)));
         // Growing is decided where the map is exact to rounding, which must not turn the decision: at the start
         // (above), at the first map that comes from another mesh's φ, and in the end.
         if ((from_elsewhere && options_.grow_first && iterations_ == 1) || (settled && options_.grow_last) ||
@@ -161,7 +160,7 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
         if (change > kTurnsBack && change > 0.8 * last_change)
             relaxation = std::max(0.5 * relaxation, kLeastRelaxation);
         last_change = change;
-        accelerated = options_.anderson_window > 0 && change < kAccelerateBelow && !astray;
+        accelerated = options_.anderson_window > 0 && change < kAccelerateBelow && !astray && relaxation == 1;
         if (accelerated) {
             const Eigen::VectorXd next = anderson.next(pack(state.direction, state.k), pack(step_.direction, step_.k));
             const Eigen::Index m = state.direction.size();
