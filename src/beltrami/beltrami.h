@@ -22,6 +22,7 @@
 #include <beltrami/maps/boundary_feasibility.h>
 #include <beltrami/maps/composition.h>
 #include <beltrami/maps/continuation.h>
+#include <beltrami/maps/even_dilatation.h>
 #include <beltrami/maps/fold_free.h>
 #include <beltrami/maps/homotopy.h>
 #include <beltrami/maps/prescribed_split.h>

@@ -6,6 +6,10 @@ namespace beltrami {
 
 namespace {
 
+/// A chart with a larger |μ| says nothing about a sample. One face of that kind, at a reflex corner of the source, can
+/// hold most of ∫|φ|.
+constexpr double kMostDistorted = 0.5;
+
 /// Shape functions of the bilinear element at its four Gauss points: corner j at point q.
 double bilinear_shape(int q, int j) {
     constexpr double near = 0.62200846792814621559, side = 0.16666666666666666667, far = 0.04465819873852045108;
@@ -49,15 +53,15 @@ Chart make_chart(const Surface& source, Eigen::VectorXcd vertices, bool exact) {
     for (int s = 0; s < operators.sample_count(); ++s) {
         const auto [dz, dzbar] = operators.derivatives(s, chart.vertices);
         chart.derivatives[s] = dz;
-        if (!(std::abs(dzbar) < std::abs(dz))) {
+        if (!(std::abs(dzbar) < kMostDistorted * std::abs(dz))) {
             chart.excluded[s] = 1;
             if (operators.faces[s] != last_face) ++chart.excluded_faces;
             last_face = operators.faces[s];
         }
     }
     if (chart.excluded_faces)
-        chart.warnings.push_back("the conformal chart turns " + std::to_string(chart.excluded_faces) +
-                                 " faces over; they are left out when the quadratic differential is determined");
+        chart.warnings.push_back("the conformal chart is far from conformal at " + std::to_string(chart.excluded_faces) +
+                                 " faces; they are left out when the quadratic differential is determined");
     return chart;
 }
 

@@ -175,11 +175,15 @@ Chart approximate_chart(const Surface& source, int outer_loop, const Eigen::Vect
     return chart;
 }
 
-/// Whether a chart turns a sample over that another one does not.
-bool turns_more(const Surface& source, const Eigen::VectorXcd& vertices, const Eigen::VectorXcd& before) {
+/// |μ| of a chart from which on it says nothing about a sample, as in make_chart.
+constexpr double kMostDistorted = 0.5;
+
+/// Whether a chart is far from conformal, or turned over, at a sample where another one is not. The series of a rounding
+/// can be steep at the rim, where a mesh with corners has few and long edges.
+bool distorts_more(const Surface& source, const Eigen::VectorXcd& vertices, const Eigen::VectorXcd& before) {
     const auto turned = [&](int s, const Eigen::VectorXcd& z) {
         const auto [dz, dzbar] = source.operators.derivatives(s, z);
-        return !(std::abs(dzbar) < std::abs(dz));
+        return !(std::abs(dzbar) < kMostDistorted * std::abs(dz));
     };
     for (int s = 0; s < source.operators.sample_count(); ++s)
         if (turned(s, vertices) && !turned(s, before)) return true;
@@ -234,7 +238,7 @@ void make_holes_round(const Surface& source, const DomainChartOptions& options, 
         const HoleRounding rounding = round_holes(rims, rounding_options);
         if (rounding.steps.empty() || !(rounding.ratio - 1 < kWorthwhile * (worst - 1))) continue;
         Chart rounder = composed(source, unrounded, rounding);
-        if (turns_more(source, rounder.vertices, unrounded.vertices)) continue;
+        if (distorts_more(source, rounder.vertices, unrounded.vertices)) continue;
         chart = std::move(rounder);
         worst = rounding.ratio;
     }

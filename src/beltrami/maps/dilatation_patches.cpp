@@ -173,7 +173,7 @@ DilatationPatches::DilatationPatches(const Operators& operators, const VertexSam
                                      const std::vector<Freedom>& freedoms, Options options)
     : operators_(operators), around_(around), freedoms_(freedoms), options_(options) {}
 
-std::vector<std::vector<int>> DilatationPatches::find(const DilatationSpread& spread, int rings) const {
+std::vector<int> DilatationPatches::surroundings(const std::vector<int>& samples, int rings) const {
     std::vector<char> in(static_cast<std::size_t>(operators_.vertex_count), 0);
     std::vector<int> front;
     const auto take = [&](int sample) {
@@ -183,37 +183,46 @@ std::vector<std::vector<int>> DilatationPatches::find(const DilatationSpread& sp
                 front.push_back(v);
             }
     };
-    for (int s = 0; s < operators_.sample_count(); ++s)
-        if (!(gap(spread.samples()[s], spread.k()) <= options_.outlier)) take(s);
+    for (const int s : samples) take(s);
     std::size_t begin = 0;
     for (int ring = 0; ring < rings; ++ring) {
         const std::size_t end = front.size();
         for (; begin < end; ++begin)
             for (const auto& corner : around_[front[begin]]) take(corner.sample);
     }
-    std::vector<int> vertices;
-    for (const int v : front)
-        if (freedoms_[v] == Freedom::free) vertices.push_back(v);
-    std::sort(vertices.begin(), vertices.end());
+    std::erase_if(front, [&](int v) { return freedoms_[v] != Freedom::free; });
+    std::sort(front.begin(), front.end());
+    return front;
+}
 
-    std::vector<int> index(in.size(), -1);
-    for (std::size_t i = 0; i < vertices.size(); ++i) index[vertices[i]] = static_cast<int>(i);
-    DisjointSets sets(static_cast<int>(vertices.size()));
-    for (std::size_t i = 0; i < vertices.size(); ++i)
-        for (const auto& corner : around_[vertices[i]])
-            for (const int u : operators_.stencil(corner.sample))
-                if (index[u] >= 0) sets.join(static_cast<int>(i), index[u]);
+std::vector<std::vector<int>> DilatationPatches::find(const DilatationSpread& spread, int rings) const {
+    std::vector<int> outliers;
+    for (int s = 0; s < operators_.sample_count(); ++s)
+        if (!(gap(spread.samples()[s], spread.k()) <= options_.outlier)) outliers.push_back(s);
     std::vector<std::vector<int>> patches;
-    std::vector<int> patch(vertices.size(), -1);
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-        int& p = patch[sets.find(static_cast<int>(i))];
-        if (p < 0) {
-            p = static_cast<int>(patches.size());
-            patches.emplace_back();
-        }
-        patches[p].push_back(vertices[i]);
+    // Parts of a patch that is too large have fewer rings. They share no sample with other patches, like the whole.
+    for (; rings > 0 && !outliers.empty(); --rings) {
+        const std::vector<int> vertices = surroundings(outliers, rings);
+        std::vector<int> index(static_cast<std::size_t>(operators_.vertex_count), -1);
+        for (std::size_t i = 0; i < vertices.size(); ++i) index[vertices[i]] = static_cast<int>(i);
+        DisjointSets sets(static_cast<int>(vertices.size()));
+        for (std::size_t i = 0; i < vertices.size(); ++i)
+            for (const auto& corner : around_[vertices[i]])
+                for (const int u : operators_.stencil(corner.sample))
+                    if (index[u] >= 0) sets.join(static_cast<int>(i), index[u]);
+        std::vector<std::vector<int>> lists(vertices.size());  // beside the representatives
+        for (std::size_t i = 0; i < vertices.size(); ++i) lists[sets.find(static_cast<int>(i))].push_back(vertices[i]);
+        const auto fits = [&](const std::vector<int>& list) {
+            return static_cast<int>(list.size()) <= options_.most_vertices;
+        };
+        std::erase_if(outliers, [&](int s) {
+            for (const int v : operators_.stencil(s))
+                if (index[v] >= 0) return fits(lists[sets.find(index[v])]);
+            return true;  // nothing can be moved
+        });
+        for (std::vector<int>& list : lists)
+            if (!list.empty() && fits(list)) patches.push_back(std::move(list));
     }
-    std::erase_if(patches, [&](const auto& list) { return static_cast<int>(list.size()) > options_.most_vertices; });
     return patches;
 }
 

@@ -15,7 +15,7 @@ class DilatationPatches {
   public:
     struct Options {
         double outlier = 0.07;    ///< a sample counts as an outlier where | |μ| − k | is above this
-        int most_vertices = 300;  ///< larger patches are left alone
+        int most_vertices = 300;  ///< larger patches take fewer rings and, if they are still larger, are left alone
     };
     /// All but the options are kept by reference.
     DilatationPatches(const Operators& operators, const VertexSamples& around, const std::vector<Freedom>& freedoms,
@@ -28,6 +28,8 @@ class DilatationPatches {
     int run(DilatationSpread& spread, Eigen::VectorXcd& f, int rings) const;
 
   private:
+    /// Free vertices of some samples and of rings around them, ascending.
+    std::vector<int> surroundings(const std::vector<int>& samples, int rings) const;
     std::vector<std::vector<int>> find(const DilatationSpread& spread, int rings) const;
 
     const Operators& operators_;

@@ -18,7 +18,7 @@ struct Certification {
     /// The map of the given mesh. K and K_lower are those of the mesh with the largest bound; the bounds are the best
     /// of all meshes: the largest Reich-Strebel bound, and the largest rigorous one where that is another.
     ExtremalMap result;
-    double gap = 0;  ///< K/K_lower − 1; infinite if there is no lower bound
+    double gap = 0;  ///< K/K_lower − 1
     bool reached = false;
     std::string reason;   ///< a sentence: why it ended
     int refinements = 0;  ///< finer meshes that were solved

@@ -36,6 +36,8 @@ struct Piece {
 };
 
 constexpr int kPiecesPerChunk = 512;
+/// So many at a time, beyond the faces, or φ is no function that a mesh can resolve.
+constexpr std::size_t kMostPieces = 1 << 21;
 
 Place middle(const Place& a, const Place& b) {
     return {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
@@ -129,7 +131,6 @@ double visit_quadrature(const Surface& source, const Chart& chart, const Differe
     const Places places(source, chart);
     std::vector<Piece> pieces = whole_faces(source.operators, chart), divided;
     double total = 0, unresolved = 0;
-    bool finite = true;
     for (int depth = 0; !pieces.empty(); ++depth) {
         const int count = static_cast<int>(pieces.size());
         std::vector<FacePoint> points(static_cast<std::size_t>(kPoints) * pieces.size());
@@ -168,15 +169,11 @@ double visit_quadrature(const Surface& source, const Chart& chart, const Differe
                 part += own[n].weight * std::abs(own[n].phi);
             }
             for (int n = 0; n < kPoints; ++n) most = std::max(most, std::abs(own[n].phi - mean));
-            const bool here = std::isfinite(part);
-            const bool varies =
-                !here || (most > options.variation * std::abs(mean) && part > options.tolerance * total);
-            if (depth < options.least_depth || (varies && depth < options.most_depth)) {
+            if (!std::isfinite(part)) return std::numeric_limits<double>::infinity();
+            const bool varies = most > options.variation * std::abs(mean) && part > options.tolerance * total;
+            const bool possible = depth < options.most_depth && divided.size() < kMostPieces;
+            if (depth < options.least_depth || (varies && possible)) {
                 divide(pieces[i], divided);
-                continue;
-            }
-            if (!here) {
-                finite = false;
                 continue;
             }
             if (varies) unresolved += part;
@@ -184,7 +181,6 @@ double visit_quadrature(const Surface& source, const Chart& chart, const Differe
         }
         pieces.swap(divided);
     }
-    if (!finite) return std::numeric_limits<double>::infinity();
     return total > 0 ? unresolved / total : 0.0;
 }
 

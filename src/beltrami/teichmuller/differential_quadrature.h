@@ -19,7 +19,7 @@ struct FacePoint {
 };
 
 struct QuadratureOptions {
-    double variation = 0.3;   ///< φ differing from its mean by more than this part asks for a division ...
+    double variation = 0.25;   ///< φ differing from its mean by more than this part asks for a division ...
     double tolerance = 1e-9;  ///< ... unless the triangle has less than this part of ∫|φ|
     int least_depth = 0;      ///< every triangle is divided so often
     int most_depth = 40;      ///< and no triangle more often
@@ -32,7 +32,8 @@ struct QuadratureOptions {
 /// holomorphic there; else positions are interpolated and the derivative is the sample's. Samples that the chart
 /// excludes take no part. The order of the calls does not depend on the number of threads.
 /// @param coefficients space.size() of them
-/// @return the part of ∫|φ| in triangles that vary too much still; infinite if φ is not finite at some point
+/// @return the part of ∫|φ| in triangles that vary too much still; infinite if φ is not finite at some
+///         point (the visits end there)
 double visit_quadrature(const Surface& source, const Chart& chart, const DifferentialSpace& space,
                         const Eigen::VectorXcd& coefficients, const std::function<void(const FacePoint&)>& visit,
                         const QuadratureOptions& options = {});

@@ -21,7 +21,7 @@ void ExtremalOptions::validate() const {
 
 HamiltonIteration::Options iteration_options(const ExtremalOptions& options) {
     HamiltonIteration::Options result;
-    result.tolerance = options.tolerance;
+    result.tolerance = result.k_tolerance = options.tolerance;
     result.max_iterations = options.max_iterations;
     result.growth = options.growth;
     result.anderson_window = options.anderson_window;

@@ -35,6 +35,9 @@ struct ExtremalOptions {
     std::optional<std::vector<Waypoint>> waypoints;
     /// Split edges and faces that the prescribed vertices nail down (prescribed_split.h): no solver can repair them.
     bool split_prescribed = true;
+    /// Even |μ| out after the iteration (even_dilatation.h): where the map is still far from |μ| = k, always or never.
+    enum class Evening { where_needed, always, never };
+    Evening evening = Evening::where_needed;
     bool remove_folds = true;  ///< finish with a fold-free solve where faces are flipped
     /// Midpoint subdivisions of the mesh for a bound by piecewise quadratic maps (sharpened_bound.h), which is far
     /// better where K is large or the mesh coarse. Empty: 0 from k = .8 on, none below; negative: never.
@@ -82,6 +85,7 @@ struct ExtremalMap {
     Termination termination = Termination::converged;
     int iterations = 0;          ///< linear solves after the harmonic one
     int factorizations = 0;      ///< of #V×#V systems and larger, chart included
+    bool evened = false;         ///< |μ| was evened out after the iteration
     bool folds_removed = false;  ///< the iteration left flipped faces, which a fold-free solve with its φ and k removed
     std::vector<Iteration> history;
     std::vector<std::string> warnings;

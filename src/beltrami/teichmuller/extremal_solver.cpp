@@ -8,6 +8,7 @@
 #include <beltrami/conformal/domain_chart.h>
 #include <beltrami/differentials/polynomial_space.h>
 #include <beltrami/maps/boundary_feasibility.h>
+#include <beltrami/maps/even_dilatation.h>
 #include <beltrami/maps/fold_free.h>
 #include <beltrami/maps/twist.h>
 #include <beltrami/mesh/error.h>
@@ -40,6 +41,14 @@ double deviation(const Operators& operators, const Eigen::VectorXcd& mu, const E
 /// Where the deviation exceeds this part of k, k is no more than a rough estimate.
 constexpr double kRough = 0.6;
 
+/// A map that is farther than this part of k from |μ| = k is evened out.
+constexpr double kUneven = 0.05;
+/// Where evening out is to be expected, the iteration ends at this change of φ, its square of k, or after so many
+/// steps.
+constexpr double kRoughTolerance = 0.03;
+constexpr int kRoughIterations = 16;
+/// Newton step, as part of the whole, to which the c-step is solved after the iteration.
+constexpr double kFinishingStep = 1e-4;
 /// By so much a corner's bound must exceed K.
 constexpr double kCornerMargin = 0.01;
 
@@ -155,24 +164,64 @@ struct ExtremalSolver::Implementation {
 
     /// Runs the iteration from where it stands.
     void iterate(HamiltonIteration::Options how) {
-        how.near_last_factor = state.space && !history.empty();
+        how.near_last_factor = state.space && problem.solver().factorization_count() > 1;
         HamiltonIteration iteration(source, problem.map_step(), problem.coefficient_step(), how);
         iteration.run(state, map,
                       problem.starting_space(PolynomialSpace::largest_degree(source.operators.sample_count())));
         map = iteration.map();
         step = iteration.last_step();
         converged = iteration.converged();
-        history = iteration.history();
+        // A run that goes on begins with where the last one ended.
+        const auto& steps = iteration.history();
+        history.insert(history.end(), steps.begin() + (history.empty() ? 0 : 1), steps.end());
     }
 
-    /// Opens what folds the iteration has left.
-    bool remove_folds() {
+    bool folded() const {
+        const Eigen::VectorXcd mu = beltrami_coefficient(source.operators, map);
+        return std::any_of(mu.begin(), mu.end(), [](Complex value) { return !(std::norm(value) < 1); });
+    }
+
+    /// Whether the map is far from |μ| = k, or folded.
+    bool uneven() const {
+        return folded() || deviation(source.operators, beltrami_coefficient(source.operators, map), step.phi, step.k) >
+                               kUneven * step.k;
+    }
+
+    /// What vertices may do after the iteration: those on lines stay where they are.
+    std::vector<Freedom> held() const {
         std::vector<Freedom> freedom = freedoms(boundary, source);
         std::replace(freedom.begin(), freedom.end(), Freedom::sliding, Freedom::fixed);
-        const FoldFreeMap opened = fold_free_map(source, freedom, teichmueller_coefficient(step.k, step.phi), map);
+        return freedom;
+    }
+
+    /// Evens |μ| out, φ and k following the map.
+    bool even_out() {
+        const auto update = [&](const Eigen::VectorXcd& at, Eigen::VectorXcd& phi, double& k) {
+            step = problem.coefficient_step().solve(beltrami_coefficient(source.operators, at), step.direction,
+                                                    kFinishingStep);
+            phi = step.phi;
+            k = step.k;
+            return true;
+        };
+        EvenDilatation evened = even_dilatation(source, held(), map, step.k, step.phi, update);
+        other_factorizations += evened.factorizations;
+        if (!evened.improved) return false;
+        map = std::move(evened.map);
+        return true;
+    }
+
+    /// Opens what folds are left.
+    bool remove_folds() {
+        const FoldFreeMap opened = fold_free_map(source, held(), teichmueller_coefficient(step.k, step.phi), map);
         other_factorizations += opened.factorizations;
         if (opened.fold_free) map = opened.map;
         return opened.fold_free;
+    }
+
+    /// The c-step of a map that came after the iteration.
+    void update_coefficient() {
+        step = problem.coefficient_step().solve(beltrami_coefficient(source.operators, map), step.direction,
+                                                kFinishingStep);
     }
 
     ExtremalMap record() const;
@@ -194,6 +243,7 @@ ExtremalSolver::Update ExtremalSolver::update(const std::vector<Complex>& images
     HamiltonIteration::Options how = iteration_options(m.options);
     how.max_iterations = max_iterations;
     how.grow_first = how.grow_last = false;
+    m.history.clear();
     m.iterate(how);
     const Eigen::VectorXcd mu = beltrami_coefficient(m.source.operators, m.map);
     const auto flipped = std::count_if(mu.begin(), mu.end(), [](Complex value) { return !(std::norm(value) < 1); });
@@ -202,11 +252,30 @@ ExtremalSolver::Update ExtremalSolver::update(const std::vector<Complex>& images
 
 ExtremalMap ExtremalSolver::solve() {
     Implementation& m = *implementation_;
-    m.iterate(iteration_options(m.options));
-    bool folds_removed = false;
-    if (m.options.remove_folds && !distortion(m.source.operators, m.map).flipped.empty())
-        folds_removed = m.remove_folds();
+    using Evening = ExtremalOptions::Evening;
+    m.history.clear();
+    bool evened = false;
+    if (m.problem.singular() && m.options.evening != Evening::never) {
+        // Evening out moves φ more than the last digits of the iteration do.
+        HamiltonIteration::Options rough = iteration_options(m.options);
+        rough.tolerance = std::max(rough.tolerance, kRoughTolerance);
+        rough.k_tolerance = std::max(rough.k_tolerance, kRoughTolerance * kRoughTolerance);
+        rough.max_iterations = std::min(rough.max_iterations, kRoughIterations);
+        rough.grow_last = false;
+        m.iterate(rough);
+        evened = m.converged && m.uneven() && m.even_out();
+    }
+    if (!evened) {
+        HamiltonIteration::Options rest = iteration_options(m.options);
+        rest.max_iterations -= std::max(0, static_cast<int>(m.history.size()) - 1);
+        if (rest.max_iterations > 0) m.iterate(rest);
+        evened = (m.options.evening == Evening::always || (m.options.evening == Evening::where_needed && m.uneven())) &&
+                 m.even_out();
+    }
+    const bool folds_removed = m.options.remove_folds && m.folded() && m.remove_folds();
+    if (evened || folds_removed) m.update_coefficient();
     ExtremalMap result = m.record();
+    result.evened = evened;
     result.folds_removed = folds_removed;
     return result;
 }

@@ -34,7 +34,8 @@ struct MapStep {
 class HamiltonIteration {
   public:
     struct Options {
-        double tolerance = 1e-8;
+        double tolerance = 1e-8;    ///< of φ's direction
+        double k_tolerance = 1e-8;  ///< of k
         int max_iterations = 60;
         double growth = 1e-5;
         int anderson_window = 5;

@@ -28,6 +28,8 @@ class ExtremalProblem {
     const Eigen::VectorXcd& harmonic() const { return harmonic_; }
     const Chart& chart() const { return chart_; }
     CoefficientStep& coefficient_step() { return *coefficient_step_; }
+    /// Whether φ may be singular within reach of the mesh: at corners or pinned points.
+    bool singular() const { return !singularities_.corners.empty() || !singularities_.pins.empty(); }
     /// Rotation of the chart that turns with the source when the boundary values are carried along.
     double phase() const { return phase_; }
 

@@ -9,7 +9,8 @@ namespace beltrami {
 
 /// A piecewise quadratic map of a triangle mesh: images of the vertices, then of the midpoints of topology's edges
 /// (#V+#E). Its derivatives are linear on a triangle, so where a piecewise linear map errs by h its Reich-Strebel bound
-/// errs by h², and that of a piecewise quadratic one by h⁴.
+/// errs by h², and that of a piecewise quadratic one by h⁴ where the extremal map is smooth. (Kinks of the polygonal
+/// boundary and zeros of φ keep it near h².)
 ///
 /// Where the midpoints of boundary edges go to the midpoints of their images it has the boundary values of a piecewise
 /// linear map: it belongs to the same extremal problem.
