@@ -330,7 +330,16 @@ ExtremalMap ExtremalSolver::Implementation::record() const {
     result.factorizations = other_factorizations + problem.solver().factorization_count();
     result.termination = converged ? Termination::converged : Termination::iteration_limit;
     result.split = prepared.split;
-    if (!paths.empty()) result.homotopy = homotopy_class(source, paths, map, options.outer_loop);
+    if (!paths.empty()) {
+        result.homotopy = homotopy_class(source, paths, map, options.outer_loop);
+        if (!options.turns.empty())
+            for (const HoleTurns& hole : result.homotopy.holes)
+                if (hole.turns != options.turns[hole.loop])
+                    result.warnings.push_back("the hole of loop " + std::to_string(hole.loop) +
+                                              " has lost its turns: " + std::to_string(options.turns[hole.loop]) +
+                                              " were wanted, the map has " + std::to_string(hole.turns) +
+                                              "; the mesh is too coarse to hold them");
+    }
     result.distortion = distortion(operators, map);
     result.phi = step.phi;
     for (std::size_t i = 0; i < boundary.vertices.size(); ++i)
