@@ -48,7 +48,8 @@ constexpr double kUnevenAtSingularities = 0.02, kUneven = 0.1;
 constexpr double kRoughTolerance = 0.03;
 constexpr int kRoughIterations = 16;
 /// Newton step, as part of the whole, to which the c-step is solved after the iteration.
-constexpr double kFinishingStep = 1e-4;
+constexpr double kFinishingStep = 3e-3;
+constexpr int kFinishingSteps = 5;
 /// Mean |μ| from which on a chart is inaccurate.
 constexpr double kInaccurateChart = 0.03;
 /// By so much a corner's bound must exceed K.
@@ -221,7 +222,7 @@ struct ExtremalSolver::Implementation {
         if (!folded()) before_evening = {map, step};
         const auto update = [&](const Eigen::VectorXcd& at, Eigen::VectorXcd& phi, double& k) {
             step = problem.coefficient_step().solve(beltrami_coefficient(source.operators, at), step.direction,
-                                                    kFinishingStep);
+                                                    kFinishingStep, kFinishingSteps);
             phi = step.phi;
             k = step.k;
             return true;
