@@ -14,7 +14,7 @@ namespace {
 /// k of the f-step stays below this.
 constexpr double kLargest = 0.9999;
 /// The c-step is solved to this part of its change in the last iteration.
-constexpr double kStepBelowChange = 0.02;
+constexpr double kStepBelowChange = 0.01;
 /// Changes of φ below this that do not become smaller for some iterations, while k stays, come from zeros of φ.
 constexpr double kStalledBelow = 3e-4, kStalledChangeOfK = 1e-5;
 constexpr int kStalledFor = 4;
