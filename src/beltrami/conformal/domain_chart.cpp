@@ -178,8 +178,8 @@ Chart approximate_chart(const Surface& source, int outer_loop, const Eigen::Vect
 /// |μ| of a chart from which on it says nothing about a sample, as in make_chart.
 constexpr double kMostDistorted = 0.5;
 
-/// Whether a chart is far from conformal, or turned over, at a sample where another one is not. The series of a rounding
-/// can be steep at the rim, where a mesh with corners has few and long edges.
+/// Whether a chart is far from conformal, or turned over, at a sample where another one is not. The series of a
+/// rounding can be steep at the rim, where a mesh with corners has few and long edges.
 bool distorts_more(const Surface& source, const Eigen::VectorXcd& vertices, const Eigen::VectorXcd& before) {
     const auto turned = [&](int s, const Eigen::VectorXcd& z) {
         const auto [dz, dzbar] = source.operators.derivatives(s, z);
@@ -244,6 +244,14 @@ void make_holes_round(const Surface& source, const DomainChartOptions& options, 
     }
 }
 
+void add_holes(const Surface& source, Chart& chart) {
+    for (int l = 0; l < static_cast<int>(source.topology.boundary_loops.size()); ++l) {
+        if (l == chart.outer_loop) continue;
+        const HoleCentre hole = hole_centre(points_of(source.topology.boundary_loops[l], chart.vertices));
+        chart.holes.push_back({l, hole.centre, hole.radius});
+    }
+}
+
 }  // namespace
 
 Chart domain_chart(const Surface& source, int outer_loop, const BeltramiSolver* dirichlet,
@@ -263,11 +271,21 @@ Chart domain_chart(const Surface& source, int outer_loop, const BeltramiSolver* 
                                             : approximate_chart(source, outer_loop, z, options);
     chart.outer_loop = outer_loop;
     make_holes_round(source, options, chart);
-    for (int l = 0; l < static_cast<int>(loops.size()); ++l) {
-        if (l == outer_loop) continue;
-        const HoleCentre hole = hole_centre(points_of(loops[l], chart.vertices));
-        chart.holes.push_back({l, hole.centre, hole.radius});
-    }
+    add_holes(source, chart);
+    return chart;
+}
+
+Chart plane_chart(const Surface& source) {
+    const Eigen::VectorXcd z = planar_coordinates(source.mesh);
+    const auto& loops = source.topology.boundary_loops;
+    const std::vector<Complex> outline = points_of(loops[0], z);
+    Complex centre = 0;
+    for (const Complex point : outline) centre += point / static_cast<double>(outline.size());
+    double radius = 0;
+    for (const Complex point : outline) radius = std::max(radius, std::abs(point - centre));
+    Chart chart = make_chart(source, (z.array() - centre) / radius, true);
+    chart.analytic = Moebius{1, -centre, 0, radius};
+    add_holes(source, chart);
     return chart;
 }
 

@@ -37,4 +37,10 @@ struct DomainChartOptions {
 Chart domain_chart(const Surface& source, int outer_loop = 0, const BeltramiSolver* dirichlet = nullptr,
                    const DomainChartOptions& options = {});
 
+/// The coordinates of a planar source, moved and scaled into the unit disk: exact for any outline, but series converge
+/// the slower the less round it is. For outlines with corners that the mesh resolves poorly, where the Riemann map is
+/// inaccurate.
+/// @pre source.in_plane(), one component of genus 0 with boundary; the outer loop is the geometric one
+Chart plane_chart(const Surface& source);
+
 }  // namespace beltrami

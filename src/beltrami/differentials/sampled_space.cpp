@@ -50,9 +50,10 @@ void SampledSpace::set(const DifferentialSpace& space) {
     space_ = &space;
     if (mode_ == Mode::afresh) return;
     if (mode_ == Mode::dense) {
-        values_ = space.generators({chart_.positions, chart_.derivatives});
-        for (Eigen::Index s = 0; s < values_.rows(); ++s)
-            if (chart_.excluded[s]) values_.row(s).setZero();
+        Eigen::MatrixXcd values = space.generators({chart_.positions, chart_.derivatives});
+        for (Eigen::Index s = 0; s < values.rows(); ++s)
+            if (chart_.excluded[s]) values.row(s).setZero();
+        values_ = SplitMatrix(values);
         return;
     }
     ChartPoints nodes;
@@ -61,7 +62,7 @@ void SampledSpace::set(const DifferentialSpace& space) {
     for (Eigen::Index c = 0; c < centres_.size(); ++c)
         for (int q = 0; q < kNodes; ++q)
             nodes.positions[kNodes * c + q] = centres_[c] + 0.5 * grid_.size[c] * node_direction(q);
-    values_ = space.generators(nodes);
+    values_ = SplitMatrix(space.generators(nodes));
 }
 
 ChartPoints SampledSpace::chunk(int first, int last) const {
@@ -70,17 +71,14 @@ ChartPoints SampledSpace::chunk(int first, int last) const {
 
 Eigen::VectorXcd SampledSpace::combination(const Eigen::VectorXcd& coefficients) const {
     const Eigen::VectorXcd of_generators = space_->of_generators(coefficients);
-    if (mode_ == Mode::interpolated) return interpolate(values_ * of_generators);
+    if (mode_ == Mode::interpolated) return interpolate(values_.times(of_generators));
+    if (mode_ == Mode::dense) return values_.times(of_generators);
     const int samples = static_cast<int>(chart_.positions.size());
     Eigen::VectorXcd phi(samples);
     parallel_for(0, samples, [&](int first, int last) {
-        if (mode_ == Mode::dense) {
-            phi.segment(first, last - first) = values_.middleRows(first, last - first) * of_generators;
-        } else {
-            phi.segment(first, last - first) = space_->combination(chunk(first, last), coefficients);
-            for (int s = first; s < last; ++s)
-                if (chart_.excluded[s]) phi[s] = 0;
-        }
+        phi.segment(first, last - first) = space_->combination(chunk(first, last), coefficients);
+        for (int s = first; s < last; ++s)
+            if (chart_.excluded[s]) phi[s] = 0;
     });
     return phi;
 }
@@ -110,7 +108,8 @@ Eigen::VectorXcd SampledSpace::interpolate(const Eigen::VectorXcd& at_nodes) con
 }
 
 Eigen::MatrixXcd SampledSpace::pair(const Eigen::MatrixXcd& weights) const {
-    if (mode_ == Mode::interpolated) return space_->from_generators(values_.transpose() * gather(weights));
+    if (mode_ == Mode::interpolated) return space_->from_generators(values_.transposed_times(gather(weights)));
+    if (mode_ == Mode::dense) return space_->from_generators(values_.transposed_times(weights));
     const int samples = static_cast<int>(chart_.positions.size());
     const int generators =
         static_cast<int>(space_->transform() ? space_->transform()->rows() : Eigen::Index{space_->size()});
@@ -119,7 +118,6 @@ Eigen::MatrixXcd SampledSpace::pair(const Eigen::MatrixXcd& weights) const {
         parallel_sum<Eigen::MatrixXcd>(samples, zero, [&](int first, int last) -> Eigen::MatrixXcd {
             const int count = last - first;
             Eigen::MatrixXcd part = weights.middleRows(first, count);
-            if (mode_ == Mode::dense) return values_.middleRows(first, count).transpose() * part;
             for (int s = first; s < last; ++s)
                 if (chart_.excluded[s]) part.row(s - first).setZero();
             return space_->generators(chunk(first, last)).transpose() * part;

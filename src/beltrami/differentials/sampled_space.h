@@ -2,6 +2,7 @@
 
 #include <beltrami/differentials/chart_grid.h>
 #include <beltrami/differentials/differential_space.h>
+#include <beltrami/differentials/split_matrix.h>
 
 namespace beltrami {
 
@@ -40,7 +41,7 @@ class SampledSpace {
     Mode mode_ = Mode::dense;
     ChartGrid grid_{{}, {0}, {}, {}};
     Eigen::VectorXcd centres_;  ///< #cells
-    Eigen::MatrixXcd values_;   ///< of the generators: #S × g; or 4 #cells × g in the canonical domain
+    SplitMatrix values_;        ///< of the generators: #S × g; or 4 #cells × g in the canonical domain
 };
 
 }  // namespace beltrami

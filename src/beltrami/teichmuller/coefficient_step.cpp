@@ -83,7 +83,8 @@ class SampleNorm final : public DualNorm {
 
 }  // namespace
 
-CoefficientStep::Result CoefficientStep::solve(const Eigen::VectorXcd& mu, const Eigen::VectorXcd& start, double step) {
+CoefficientStep::Result CoefficientStep::solve(const Eigen::VectorXcd& mu, const Eigen::VectorXcd& start, double step,
+                                               int newton_steps) {
     const int samples = source_.operators.sample_count();
     Eigen::MatrixXcd pairing_weight = Eigen::MatrixXcd::Zero(samples, 1);  // A b
     Eigen::VectorXd norm_weight = Eigen::VectorXd::Zero(samples);          // A a
@@ -105,7 +106,7 @@ CoefficientStep::Result CoefficientStep::solve(const Eigen::VectorXcd& mu, const
             at = solve_dual(problem_, at, {.step = kColdStep, .norm = &norm}).coefficients;
         }
     problem_.rounding = kRounding * edge_;
-    const DualSolution dual = solve_dual(problem_, at, {.step = step, .norm = &norm});
+    const DualSolution dual = solve_dual(problem_, at, {.max_steps = newton_steps, .step = step, .norm = &norm});
 
     Result result;
     result.converged = dual.converged;

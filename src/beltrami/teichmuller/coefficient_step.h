@@ -36,7 +36,8 @@ class CoefficientStep {
     /// @param mu    #S coefficients of the map; those of flipped or nearly flipped samples are held at |μ| = 0.95
     /// @param start direction to start from, padded by zeros; empty at the very beginning
     /// @param step  length of a Newton step, as part of the whole, at which c is good enough
-    Result solve(const Eigen::VectorXcd& mu, const Eigen::VectorXcd& start, double step = 0);
+    /// @param newton_steps allowed
+    Result solve(const Eigen::VectorXcd& mu, const Eigen::VectorXcd& start, double step = 0, int newton_steps = 50);
 
   private:
     const Surface& source_;

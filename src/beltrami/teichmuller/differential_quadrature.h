@@ -19,7 +19,7 @@ struct FacePoint {
 };
 
 struct QuadratureOptions {
-    double variation = 0.25;   ///< φ differing from its mean by more than this part asks for a division ...
+    double variation = 0.25;  ///< φ differing from its mean by more than this part asks for a division ...
     double tolerance = 1e-9;  ///< ... unless the triangle has less than this part of ∫|φ|
     int least_depth = 0;      ///< every triangle is divided so often
     int most_depth = 40;      ///< and no triangle more often

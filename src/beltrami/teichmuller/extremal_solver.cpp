@@ -41,14 +41,17 @@ double deviation(const Operators& operators, const Eigen::VectorXcd& mu, const E
 /// Where the deviation exceeds this part of k, k is no more than a rough estimate.
 constexpr double kRough = 0.6;
 
-/// A map that is farther than this part of k from |μ| = k is evened out.
-constexpr double kUneven = 0.05;
+/// A map that is farther than this part of k from |μ| = k is evened out: where φ is singular, and elsewhere.
+constexpr double kUnevenAtSingularities = 0.02, kUneven = 0.1;
 /// Where evening out is to be expected, the iteration ends at this change of φ, its square of k, or after so many
 /// steps.
 constexpr double kRoughTolerance = 0.03;
 constexpr int kRoughIterations = 16;
 /// Newton step, as part of the whole, to which the c-step is solved after the iteration.
-constexpr double kFinishingStep = 1e-4;
+constexpr double kFinishingStep = 3e-3;
+constexpr int kFinishingSteps = 5;
+/// Mean |μ| from which on a chart is inaccurate.
+constexpr double kInaccurateChart = 0.03;
 /// By so much a corner's bound must exceed K.
 constexpr double kCornerMargin = 0.01;
 
@@ -78,6 +81,16 @@ Prepared prepare(const Surface& source, const BoundaryCondition& boundary, const
     return result;
 }
 
+/// Whether a chart is so inaccurate that a plane source is better described by its own coordinates.
+bool far_from_conformal(const Surface& source, const Chart& chart) {
+    double sum = 0;
+    for (int s = 0; s < source.operators.sample_count(); ++s) {
+        const auto [dz, dzbar] = source.operators.derivatives(s, chart.vertices);
+        sum += source.operators.weights[s] * std::abs(dzbar) / std::abs(dz);
+    }
+    return sum > kInaccurateChart * source.operators.area();
+}
+
 /// A start given on the old mesh, on the split one.
 Eigen::VectorXcd on_split_mesh(const Eigen::VectorXcd& start, const std::optional<SplitProblem>& split) {
     if (!split) return start;
@@ -104,6 +117,11 @@ struct ExtremalSolver::Implementation {
     HamiltonState state;
     Eigen::VectorXcd map;
     CoefficientStep::Result step;
+    struct Settled {
+        Eigen::VectorXcd map;
+        CoefficientStep::Result step;
+    };
+    std::optional<Settled> before_evening;  // the map of the last c-step before it was evened out, if it has no folds
     std::vector<std::string> warnings;
     std::vector<Iteration> history;
     std::vector<BoundaryCorner> corners;
@@ -122,6 +140,11 @@ struct ExtremalSolver::Implementation {
                                " edges between prescribed vertices were split; added vertices follow the source's");
         const bool inside = !boundary.lines.empty() || boundary.vertices.size() > boundary_vertex_count();
         Chart chart = domain_chart(source, options.outer_loop, inside ? nullptr : &problem.solver());
+        if (!chart.exact && options.outer_loop == 0 && source.in_plane() && far_from_conformal(source, chart)) {
+            const int factorizations = chart.factorizations;
+            chart = plane_chart(source);
+            chart.factorizations = factorizations;
+        }
         other_factorizations += chart.factorizations;
         warnings.insert(warnings.end(), chart.warnings.begin(), chart.warnings.end());
         corners = find_corners(source, boundary);
@@ -184,7 +207,7 @@ struct ExtremalSolver::Implementation {
     /// Whether the map is far from |μ| = k, or folded.
     bool uneven() const {
         return folded() || deviation(source.operators, beltrami_coefficient(source.operators, map), step.phi, step.k) >
-                               kUneven * step.k;
+                               (problem.singular() ? kUnevenAtSingularities : kUneven) * step.k;
     }
 
     /// What vertices may do after the iteration: those on lines stay where they are.
@@ -196,9 +219,10 @@ struct ExtremalSolver::Implementation {
 
     /// Evens |μ| out, φ and k following the map.
     bool even_out() {
+        if (!folded()) before_evening = {map, step};
         const auto update = [&](const Eigen::VectorXcd& at, Eigen::VectorXcd& phi, double& k) {
             step = problem.coefficient_step().solve(beltrami_coefficient(source.operators, at), step.direction,
-                                                    kFinishingStep);
+                                                    kFinishingStep, kFinishingSteps);
             phi = step.phi;
             k = step.k;
             return true;
@@ -222,6 +246,20 @@ struct ExtremalSolver::Implementation {
     void update_coefficient() {
         step = problem.coefficient_step().solve(beltrami_coefficient(source.operators, map), step.direction,
                                                 kFinishingStep);
+    }
+
+    /// The Reich-Strebel bound of a map and the φ of its c-step; 1 if there is none.
+    double lower_bound(const Eigen::VectorXcd& of, const CoefficientStep::Result& with) const {
+        const ReichStrebel integrals = reich_strebel(source, problem.chart(), *state.space, with.direction,
+                                                     beltrami_coefficient(source.operators, of));
+        return integrals.valid ? integrals.lower : 1;
+    }
+
+    SolutionBounds bounds_of(const Eigen::VectorXcd& of, const CoefficientStep::Result& with,
+                             const Distortion& distortion) const {
+        return solution_bounds({source, boundary, problem.chart(), *state.space, with.direction, with.phi, with.k, of,
+                                distortion, paths, options.outer_loop, options.turns},
+                               options.sharpen);
     }
 
     ExtremalMap record() const;
@@ -275,6 +313,7 @@ ExtremalMap ExtremalSolver::solve() {
     const bool folds_removed = m.options.remove_folds && m.folded() && m.remove_folds();
     if (evened || folds_removed) m.update_coefficient();
     ExtremalMap result = m.record();
+    m.before_evening.reset();
     result.evened = evened;
     result.folds_removed = folds_removed;
     return result;
@@ -292,7 +331,16 @@ ExtremalMap ExtremalSolver::Implementation::record() const {
     result.factorizations = other_factorizations + problem.solver().factorization_count();
     result.termination = converged ? Termination::converged : Termination::iteration_limit;
     result.split = prepared.split;
-    if (!paths.empty()) result.homotopy = homotopy_class(source, paths, map, options.outer_loop);
+    if (!paths.empty()) {
+        result.homotopy = homotopy_class(source, paths, map, options.outer_loop);
+        if (!options.turns.empty())
+            for (const HoleTurns& hole : result.homotopy.holes)
+                if (hole.turns != options.turns[hole.loop])
+                    result.warnings.push_back("the hole of loop " + std::to_string(hole.loop) +
+                                              " has lost its turns: " + std::to_string(options.turns[hole.loop]) +
+                                              " were wanted, the map has " + std::to_string(hole.turns) +
+                                              "; the mesh is too coarse to hold them");
+    }
     result.distortion = distortion(operators, map);
     result.phi = step.phi;
     for (std::size_t i = 0; i < boundary.vertices.size(); ++i)
@@ -301,12 +349,14 @@ ExtremalMap ExtremalSolver::Implementation::record() const {
 
     result.K_max =
         result.distortion.flipped.empty() ? dilatation(result.distortion.max) : std::numeric_limits<double>::infinity();
+    // Evening out makes |μ| more even and the bounds, as a rule, a little worse.
+    const bool earlier =
+        before_evening && lower_bound(before_evening->map, before_evening->step) >= lower_bound(map, step);
     const SolutionBounds bounds =
-        solution_bounds({source, boundary, problem.chart(), *state.space, step.direction, step.phi, step.k, map,
-                         result.distortion, paths, options.outer_loop, options.turns},
-                        options.sharpen);
-    result.k = bounds.k;
-    result.K = bounds.K;
+        earlier ? bounds_of(before_evening->map, before_evening->step, distortion(operators, before_evening->map))
+                : bounds_of(map, step, result.distortion);
+    result.K = std::min(bounds.K, result.K_max);
+    result.k = (result.K - 1) / (result.K + 1);
     result.K_lower = bounds.K_lower;
     result.bounds = bounds.bounds;
     result.factorizations += bounds.factorizations;

@@ -14,12 +14,20 @@ namespace {
 /// k of the f-step stays below this.
 constexpr double kLargest = 0.9999;
 /// The c-step is solved to this part of its change in the last iteration.
-constexpr double kStepBelowChange = 1e-2;
+constexpr double kStepBelowChange = 0.01;
 /// Changes of φ below this that do not become smaller for some iterations, while k stays, come from zeros of φ.
 constexpr double kStalledBelow = 3e-4, kStalledChangeOfK = 1e-5;
 constexpr int kStalledFor = 4;
 /// Steps taken in a preliminary space.
 constexpr int kPreliminaryIterations = 2;
+/// Newton step, as part of the whole, to which the first c-step with poles at corners is solved.
+constexpr double kFirstStep = 0.15;
+/// Newton steps allowed in a c-step, few while φ still changes by more than this.
+constexpr int kNewtonCap = 8, kNewtonSteps = 50;
+constexpr double kNewtonCapAbove = 1e-3;
+/// A larger space has so many steps to settle, and may lower the bound by this part.
+constexpr int kGrownIterations = 15;
+constexpr double kWorse = 1e-4;
 /// Acceleration begins once φ changes by less than this.
 constexpr double kAccelerateBelow = 0.1;
 /// A change above this that hardly falls is a φ that turns back and forth; the least part of a step that is then taken.
@@ -55,7 +63,7 @@ bool HamiltonIteration::grow(HamiltonState& state, const Eigen::VectorXcd& mu) {
     if (state.space->preliminary()) {
         state.space = state.space->refined();
         coefficient_step_.set_space(*state.space);
-        step_ = coefficient_step_.solve(mu, step_.direction);
+        step_ = coefficient_step_.solve(mu, step_.direction, kFirstStep, kNewtonCap);
         return true;
     }
     while (auto larger = state.space->refined()) {
@@ -99,6 +107,9 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
     int since_least = 0;
     CoefficientStep::Result best;  // what is returned if nothing settles
     Eigen::VectorXcd best_map;
+    CoefficientStep::Result fallback;  // what had settled in a smaller space
+    Eigen::VectorXcd fallback_map;
+    int grown_at = 0;
     double last_change = 1, relaxation = 1;
     bool accelerated = false;
     while (iterations_ < options_.max_iterations) {
@@ -113,7 +124,8 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
         }
         ++iterations_;
         const Eigen::VectorXcd mu = beltrami_coefficient(source_.operators, map_);
-        step_ = coefficient_step_.solve(mu, state.direction, kStepBelowChange * std::min(change, 0.1));
+        step_ = coefficient_step_.solve(mu, state.direction, kStepBelowChange * std::min(change, 0.1),
+                                        change > kNewtonCapAbove ? kNewtonCap : kNewtonSteps);
         if (step_.merit > best.merit) {
             best = step_;
             best_map = map_;
@@ -133,14 +145,18 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
             ++since_least;
         }
         const bool stalled = least_change < kStalledBelow && since_least >= kStalledFor && k_change < kStalledChangeOfK;
-        const bool settled =
-            !state.space->preliminary() && step_.converged &&
-            (stalled || (k_change < options_.k_tolerance &&
-                                            (change < options_.tolerance || step_.k < options_.k_tolerance)));
+        const bool settled = !state.space->preliminary() && step_.converged &&
+                             (stalled || (k_change < options_.k_tolerance &&
+                                          (change < options_.tolerance || step_.k < options_.k_tolerance)));
         // Growing is decided where the map is exact to rounding, which must not turn the decision: at the start
         // (above), at the first map that comes from another mesh's φ, and in the end.
         if ((from_elsewhere && options_.grow_first && iterations_ == 1) || (settled && options_.grow_last) ||
             (state.space->preliminary() && iterations_ == kPreliminaryIterations)) {
+            if (settled) {
+                fallback = step_;
+                fallback_map = map_;
+                grown_at = iterations_;
+            }
             if (grow(state, mu)) {
                 anderson.reset();
                 change = least_change = relaxation = 1;
@@ -154,6 +170,7 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
             converged_ = true;
             break;
         }
+        if (grown_at > 0 && iterations_ - grown_at > kGrownIterations) break;
         // Acceleration can lead astray where the iteration is not smooth; a plain step then brings it back.
         const bool astray = accelerated && change > last_change;
         if (astray) anderson.reset();
@@ -161,7 +178,7 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
         if (change > kTurnsBack && change > 0.8 * last_change)
             relaxation = std::max(0.5 * relaxation, kLeastRelaxation);
         last_change = change;
-        accelerated = options_.anderson_window > 0 && change < kAccelerateBelow && !astray;
+        accelerated = options_.anderson_window > 0 && change < kAccelerateBelow && !astray && relaxation == 1;
         if (accelerated) {
             const Eigen::VectorXd next = anderson.next(pack(state.direction, state.k), pack(step_.direction, step_.k));
             const Eigen::Index m = state.direction.size();
@@ -174,7 +191,13 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
             state.k = std::min(state.k + relaxation * (step_.k - state.k), kLargest);
         }
     }
-    if (!converged_ && best.merit > step_.merit) {
+    // A larger space in which nothing settles, or which makes the bound worse, was too large for the mesh.
+    if (grown_at > 0 && (!converged_ || step_.merit < (1 - kWorse) * fallback.merit)) {
+        converged_ = true;
+        map_ = std::move(fallback_map);
+        step_ = std::move(fallback);
+        step_.direction.conservativeResizeLike(Eigen::VectorXcd::Zero(state.space->size()));
+    } else if (!converged_ && best.merit > step_.merit) {
         const Eigen::Index size = state.space->size();
         map_ = std::move(best_map);
         step_ = std::move(best);

@@ -87,6 +87,12 @@ LeastMaximumMap least_maximum_map(const Surface& source, const BoundaryCondition
     result.factorizations += found.factorizations;
     result.history = std::move(found.history);
     result.distortion = distortion(surface.operators, result.map);
+    // A mean with a finite power can prefer a map whose worst face is worse.
+    if (result.start_max < 1 && !(result.distortion.max < result.start_max)) {
+        result.map = start;
+        result.distortion = distortion(surface.operators, result.map);
+        result.fold_free = true;
+    }
     if (!result.fold_free)
         result.warnings.push_back(found.status == FoldFreeStatus::impossible
                                       ? "the prescribed vertices alone force a fold"

@@ -24,7 +24,7 @@ struct LeastMaximumOptions {
 
 /// Where edges had to be split, #V and #F are those of the split mesh.
 struct LeastMaximumMap {
-    Eigen::VectorXcd map;   ///< #V images
+    Eigen::VectorXcd map;   ///< #V images; the start, where its largest |μ| is not larger
     Distortion distortion;  ///< of map; its max is what has been made small
     double start_max = 0;   ///< largest |μ| of the start; above 1 where it was folded
     bool fold_free = false;

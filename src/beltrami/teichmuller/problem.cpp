@@ -5,6 +5,7 @@
 
 #include <beltrami/differentials/polynomial_space.h>
 #include <beltrami/differentials/rational_space.h>
+#include <beltrami/mesh/inside_polygon.h>
 
 namespace beltrami {
 
@@ -29,6 +30,27 @@ double phase_of(const Chart& chart, const BoundaryCondition& boundary) {
         correlation += chart.vertices[boundary.vertices[i]] * std::conj(boundary.images[i] - mean);
     return std::arg(correlation);
 }
+
+/// The domain of a chart, between its loops.
+class ChartDomain {
+  public:
+    ChartDomain(const Surface& source, const Chart& chart) {
+        for (const auto& loop : source.topology.boundary_loops) {
+            auto& polygon = polygons_.emplace_back();
+            for (const int v : loop) polygon.push_back(chart.vertices[v]);
+        }
+        outer_ = chart.outer_loop;
+    }
+    bool contains(Complex z) const {
+        for (std::size_t l = 0; l < polygons_.size(); ++l)
+            if ((winding_number(polygons_[l], z) != 0) != (static_cast<int>(l) == outer_)) return false;
+        return true;
+    }
+
+  private:
+    std::vector<std::vector<Complex>> polygons_;
+    int outer_ = 0;
+};
 
 }  // namespace
 
@@ -67,6 +89,7 @@ Singularities singularities_of(const Surface& source, const Chart& chart, const 
     }
     for (const int v : boundary.vertices)
         if (!source.topology.on_boundary[v]) result.pins.push_back(chart.vertices[v]);
+    const ChartDomain domain(source, chart);
     const int budget = source.operators.sample_count() / (kSamplesPerFunction * RationalSpace::corner_poles);
     for (const BoundaryCorner& corner : corners) {
         if (static_cast<int>(result.corners.size()) >= budget) break;
@@ -87,8 +110,14 @@ Singularities singularities_of(const Surface& source, const Chart& chart, const 
         const Complex vertex = at(corner.position), next = at(corner.position + 1), last = at(corner.position - 1);
         const Complex along = next - last;
         if (gap < kLeastGap || !(std::abs(along) > 0)) continue;
+        // Poles have to lie outside: a ray from a corner can meet the domain again.
+        const Complex outward = Complex(0, -1) * along / std::abs(along);
+        const auto outside = [&](double distance) { return !domain.contains(vertex + distance * outward); };
+        while (reach > std::abs(along) &&
+               !(outside(reach) && outside(0.75 * reach) && outside(0.5 * reach) && outside(0.3 * reach)))
+            reach *= 0.6;
         const double edge = 0.5 * (std::abs(next - vertex) + std::abs(vertex - last));
-        result.corners.push_back({vertex, Complex(0, -1) * along / std::abs(along), reach, kFinest * edge});
+        result.corners.push_back({vertex, outward, reach, kFinest * edge});
     }
     return result;
 }

@@ -12,6 +12,10 @@ namespace {
 /// From here on face-wise coefficients are too noisy for K.
 constexpr double kLargeCoefficient = 0.8;
 
+/// A bracket wider than this part of K is worth a second solve, on meshes that are not very large.
+constexpr double kWideGap = 0.01;
+constexpr int kMostSharpenedSamples = 100'000;
+
 /// Whether a map has the turns that are wanted, and whether that can be known.
 struct SameClass {
     bool same = true, known = true;
@@ -39,7 +43,9 @@ SolutionBounds solution_bounds(const Solution& s, std::optional<int> subdivision
         s.distortion.flipped.empty() ? dilatation(s.distortion.max) : std::numeric_limits<double>::infinity();
     const ReichStrebel own = reich_strebel(s.source, s.chart, s.space, s.coefficients, s.distortion.mu);
     const bool large = s.k >= kLargeCoefficient;
-    if (!subdivisions && large) subdivisions = 0;
+    const bool wide = own.valid && own.estimate > (1 + kWideGap) * own.lower &&
+                      s.source.operators.sample_count() <= kMostSharpenedSamples;
+    if (!subdivisions && (large || wide)) subdivisions = 0;
 
     SharpenedBound sharp;
     SameClass same;

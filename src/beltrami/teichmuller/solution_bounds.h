@@ -41,7 +41,8 @@ struct Solution {
 /// - (1+k)/(1−k).
 /// A sharpened bound counts only where its map has the same turns; where the turns of map mean nothing and none are
 /// given, it is called not rigorous. Between two holes and more it belongs to the braid of its own map.
-/// @param subdivisions of the mesh for sharpened_bound; empty: 0 from k = .8 on, and no sharpened bound below;
+/// @param subdivisions of the mesh for sharpened_bound; empty: 0 from k = .8 on or where the bracket is wider
+///                     than 1 %, else no sharpened bound;
 ///                     negative: none
 SolutionBounds solution_bounds(const Solution& solution, std::optional<int> subdivisions);
 

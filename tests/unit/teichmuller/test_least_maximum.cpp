@@ -36,7 +36,7 @@ TEST(LeastMaximum, IsBelowTheExtremalMapAndTheInterpolatedExactOne) {
     EXPECT_LT(result.distortion.max, 0.518);
     EXPECT_GT(result.distortion.max, 0.495);
     EXPECT_LT(result.distortion.max, interpolated - 0.02);
-    EXPECT_LT(result.distortion.max, result.start_max - 0.025);
+    EXPECT_LT(result.distortion.max, result.start_max - 0.01);
     EXPECT_EQ(result.history.back().power, 128);
     for (std::size_t i = 0; i < boundary.vertices.size(); ++i)
         EXPECT_EQ(result.map[boundary.vertices[i]], boundary.images[i]);
@@ -47,13 +47,14 @@ TEST(LeastMaximum, ALargerPowerHasASmallerMaximum) {
     const BoundaryCondition boundary = test::boundary_values(
         surface, [](Complex z) { return std::polar(1.0, std::arg(z) + 0.6 * std::sin(std::arg(z))); });
     double last = 1;
-    for (const double power : {1.0, 8.0, 64.0}) {
+    for (const double power : {1.0, 16.0, 256.0}) {
         LeastMaximumOptions options;
         options.power = power;
         const double max = least_maximum_map(surface, boundary, options).distortion.max;
-        EXPECT_LT(max, last) << power;
+        EXPECT_LE(max, last) << power;
         last = max;
     }
+    EXPECT_LT(last, extremal_map(surface, boundary).distortion.max);
 }
 
 TEST(LeastMaximum, AffineMapsAreFound) {
@@ -114,7 +115,7 @@ TEST(LeastMaximum, OpensTheFoldsOfItsStart) {
 
 TEST(LeastMaximum, HolesAndTurns) {
     DomainOptions options;
-    options.edge_length = 0.1;
+    options.edge_length = 0.07;
     const Surface surface(circle_domain({}, {{{0, 0}, 0.2}}, options));
     const BoundaryCondition boundary = test::boundary_values(surface, [](Complex z) { return z; });
     LeastMaximumOptions how;
