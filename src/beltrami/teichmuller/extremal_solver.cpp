@@ -276,8 +276,10 @@ ExtremalSolver::Update ExtremalSolver::update(const std::vector<Complex>& images
     if (images.size() != m.boundary.images.size())
         throw Error(Cause::bad_boundary, "there are " + std::to_string(images.size()) + " new images for " +
                                              std::to_string(m.boundary.images.size()) + " prescribed vertices");
-    m.boundary.images = images;
-    require_feasible(m.source, m.boundary, m.options.outer_loop);
+    BoundaryCondition moved = m.boundary;
+    moved.images = images;
+    require_feasible(m.source, moved, m.options.outer_loop);
+    m.boundary = std::move(moved);
     m.problem.map_step().prescribed = prescribed_values(m.boundary, m.source);
     HamiltonIteration::Options how = iteration_options(m.options);
     how.max_iterations = max_iterations;
