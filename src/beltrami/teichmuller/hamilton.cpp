@@ -23,7 +23,7 @@ constexpr int kPreliminaryIterations = 2;
 /// Newton step, as part of the whole, to which the first c-step with poles at corners is solved.
 constexpr double kFirstStep = 0.15;
 /// Newton steps allowed in a c-step, few while φ still changes by more than this.
-constexpr int kNewtonCap = 8, kNewtonSteps = 50;
+constexpr int kNewtonCap = 40, kNewtonSteps = 40;
 constexpr double kNewtonCapAbove = 1e-3;
 /// A larger space has so many steps to settle, and may lower the bound by this part.
 constexpr int kGrownIterations = 15;
