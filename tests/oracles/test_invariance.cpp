@@ -13,7 +13,8 @@ namespace {
 struct Kind {
     const char* name;
     bool corners, hole, pin;
-    double numbering;  ///< how far k may move when vertices and faces are renumbered
+    double rounding;   ///< how far k may move when coordinates are rounded otherwise
+    double numbering;  ///< the same when vertices and faces are renumbered
 };
 std::ostream& operator<<(std::ostream& out, const Kind& kind) {
     return out << kind.name;
@@ -50,14 +51,14 @@ TEST_P(Invariances, OfTheIteration) {
     const auto k_of = [&](const bench::Problem& p) { return extremal_map(p.mesh, p.boundary, options).k; };
     const double k = k_of(problem);
     EXPECT_GT(k, 0.2);
-    // Measured: at most 6e-10.
-    EXPECT_NEAR(k_of(test::moved(problem, std::polar(1.0, 1.0), 0, 1, 0)), k, 1e-8);
-    EXPECT_NEAR(k_of(test::moved(problem, 1e6, 0, 1e6, 0)), k, 1e-8);
-    EXPECT_NEAR(k_of(test::moved(problem, 1e-6, 0, 1e-6, 0)), k, 1e-8);
-    EXPECT_NEAR(k_of(test::moved(problem, std::polar(1e6, 2.0), 0, std::polar(1e-6, 0.3), 0)), k, 5e-8);
+    const double rounding = GetParam().rounding;
+    EXPECT_NEAR(k_of(test::moved(problem, std::polar(1.0, 1.0), 0, 1, 0)), k, rounding);
+    EXPECT_NEAR(k_of(test::moved(problem, 1e6, 0, 1e6, 0)), k, rounding);
+    EXPECT_NEAR(k_of(test::moved(problem, 1e-6, 0, 1e-6, 0)), k, rounding);
+    EXPECT_NEAR(k_of(test::moved(problem, std::polar(1e6, 2.0), 0, std::polar(1e-6, 0.3), 0)), k, 5 * rounding);
     // Measured: 2e-8 when the image is turned and scaled alone. A shift rounds the coordinates, which turns the
     // corners of a square, equal before, into corners of some order: 2e-6 (else 2e-10).
-    EXPECT_NEAR(k_of(test::moved(problem, 1, 0, std::polar(3.0, 0.7), 0)), k, 1e-7);
+    EXPECT_NEAR(k_of(test::moved(problem, 1, 0, std::polar(3.0, 0.7), 0)), k, 10 * rounding);
     EXPECT_NEAR(k_of(test::moved(problem, 1, {50, -20}, 1, {-30, 10})), k, GetParam().corners ? 5e-6 : 1e-8);
     EXPECT_NEAR(k_of(test::renumbered(problem)), k, GetParam().numbering);
 }
@@ -93,14 +94,16 @@ TEST_P(Invariances, SameBytesOnAnyNumberOfThreads) {
     set_thread_count(before);
 }
 
-// The chart of a polygon with a hole goes by a mesh of the filled hole, which begins at the loop's first vertex: 1e-6
-// here, 4e-5 at most.
+// Measured, of rounding: 6e-10; with corners and a hole 4e-6, where growing the space once more is worth just about
+// options.growth = 1e-5 of k. Of numbering: 4e-5 there, for the mesh that fills the hole for the chart begins at the
+// loop's first vertex.
 INSTANTIATE_TEST_SUITE_P(
     Kinds, Invariances,
-    testing::Values(Kind{"disk", false, false, false, 1e-8}, Kind{"pin", false, false, true, 1e-8},
-                    Kind{"corners", true, false, false, 1e-8}, Kind{"corners_and_pin", true, false, true, 1e-8},
-                    Kind{"hole", false, true, false, 1e-8}, Kind{"hole_and_pin", false, true, true, 1e-8},
-                    Kind{"corners_and_hole", true, true, false, 1e-4}, Kind{"all", true, true, true, 1e-4}),
+    testing::Values(Kind{"disk", false, false, false, 1e-8, 1e-8}, Kind{"pin", false, false, true, 1e-8, 1e-8},
+                    Kind{"corners", true, false, false, 1e-8, 1e-8},
+                    Kind{"corners_and_pin", true, false, true, 1e-8, 1e-8},
+                    Kind{"hole", false, true, false, 1e-8, 1e-8}, Kind{"hole_and_pin", false, true, true, 1e-8, 1e-8},
+                    Kind{"corners_and_hole", true, true, false, 5e-6, 1e-4}, Kind{"all", true, true, true, 5e-6, 1e-4}),
     [](const auto& parameter) { return parameter.param.name; });
 
 }  // namespace
