@@ -89,10 +89,10 @@ TEST_P(Shapes, AreOneToOneWithABracketThatShrinks) {
     EXPECT_LE(fine.result.K_lower, coarse.result.K_max);
 }
 INSTANTIATE_TEST_SUITE_P(Corners, Shapes,
-                         testing::Values(Shape{"arrow_head_45", bench::arrow_head_45, 0.05, 0.025, 0.01},
-                                         Shape{"arrow_head_65", bench::arrow_head_65, 0.05, 0.025, 0.03},
-                                         Shape{"l_to_square", bench::l_to_square, 0.05, 0.025, 0.006},
-                                         Shape{"wedge", bench::wedge, 0.05, 0.025, 0.01}),
+                         testing::Values(Shape{"arrow_head_45", bench::arrow_head_45, 0.033, 0.0167, 0.006},
+                                         Shape{"arrow_head_65", bench::arrow_head_65, 0.033, 0.0167, 0.015},
+                                         Shape{"l_to_square", bench::l_to_square, 0.025, 0.0167, 0.006},
+                                         Shape{"wedge", bench::wedge, 0.033, 0.0167, 0.006}),
                          [](const auto& parameter) { return parameter.param.name; });
 
 // Boundary values whose speed jumps at corners, notches, teeth: one-to-one, a bracket, and a cause where it is wide.
