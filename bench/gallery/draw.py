@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Draws the gallery's pictures: draw.py DATA_FOLDER PICTURE_FOLDER. DATA_FOLDER has pictures.json and PLY files.
 
-A picture is a row (or rows) of panels: "map" (a planar mesh coloured by |mu|), "grid" (the image of a polar chessboard),
-"histogram", "curves" and "surface" (a mesh in space with a checkerboard of the map's plane, or coloured by |mu|)."""
+A picture is a row of panels of one height: "map" (a planar mesh coloured by |mu|), "grid" (the image of a chessboard of
+the source), "histogram", "curves" and "surface" (a mesh in space with a chessboard of the map's plane, or coloured by
+|mu|)."""
 import io
 import json
 import sys
@@ -21,6 +22,8 @@ MOST_BYTES = 80_000
 FLIPPED = (0.85, 0.1, 0.1, 1.0)
 CHECKER = (0.30, 0.45, 0.69), (0.95, 0.93, 0.86)
 PANEL = 2.9  # inches
+WIDTH = 11.6
+OFFSET = 1e-5  # of chessboards: edges of the mesh often lie on their lines
 DPI = 110
 TYPES = {"char": "i1", "uchar": "u1", "short": "<i2", "ushort": "<u2", "int": "<i4", "uint": "<u4",
          "float": "<f4", "double": "<f8", "int8": "i1", "uint8": "u1", "int32": "<i4", "uint32": "<u4",
@@ -68,8 +71,8 @@ def read_ply(path):
             "triangles": np.array(triangles), "mu": np.array(mu)}
 
 
-def colours_of(mu, largest):
-    colours = matplotlib.colormaps["viridis"](np.clip(mu / largest, 0, 1))
+def colours_of(mu, least, largest):
+    colours = matplotlib.colormaps["viridis"](np.clip((mu - least) / (largest - least), 0, 1))
     colours[mu >= 1] = FLIPPED
     return colours
 
@@ -82,7 +85,7 @@ def areas_of(data):
 def draw_map(axes, panel, load):
     data = load(panel["data"])
     points = data["space"][:, :2] if panel["domain"] == "source" else data["plane"]
-    colours = colours_of(data["mu"], panel["max"])
+    colours = colours_of(data["mu"], panel["min"], panel["max"])
     # Flipped faces last, so that they are seen.
     order = np.argsort(data["mu"] >= 1, kind="stable")
     polygons = points[data["triangles"][order]]
@@ -92,7 +95,7 @@ def draw_map(axes, panel, load):
                                        edgecolors=(0, 0, 0, 0.4) if width else colours[order],
                                        linewidths=width or 0.3))
     frame(axes, points)
-    return panel["max"]
+    return panel["min"], panel["max"]
 
 
 def frame(axes, points):
@@ -106,7 +109,7 @@ def frame(axes, points):
 
 def draw_grid(axes, panel, load):
     data = load(panel["data"])
-    pixels = 2 * int(PANEL * DPI)
+    pixels = 2 * int(PANEL * DPI * max(1, shape(panel, load)))
     low, size = data["plane"].min(0), np.ptp(data["plane"], axis=0).max()
     screen = (data["plane"] - low) / size * (pixels - 20) + 10
     # Flipped faces lie in front.
@@ -114,14 +117,40 @@ def draw_grid(axes, panel, load):
     depth[data["triangles"][data["mu"] >= 1]] = 1
     face, _, bary = rasterise(screen, depth, data["triangles"], pixels)
     seen = face >= 0
-    source = np.einsum("pi,pij->pj", bary[seen], data["space"][data["triangles"][face[seen]], :2])
-    sector = 2 * np.pi / 24
-    parity = np.floor(np.arctan2(source[:, 1], source[:, 0]) / sector)
-    parity += np.floor(np.log(np.hypot(source[:, 0], source[:, 1])) / sector)
+    flat = data["space"][:, :2]
+    source = np.einsum("pi,pij->pj", bary[seen], flat[data["triangles"][face[seen]]])
+    if panel["pattern"] == "square":
+        square = np.ptp(flat, axis=0).max() / panel["count"]
+        parity = np.floor((source - flat.min(0)) / square + OFFSET).sum(1)
+    else:
+        sector = 2 * np.pi / panel["count"]
+        radius = np.hypot(source[:, 0], source[:, 1])
+        parity = np.floor(np.arctan2(source[:, 1], source[:, 0]) / sector + OFFSET)
+        parity += np.floor(np.log(radius) / sector if panel["pattern"] == "polar" else radius * panel["count"] / 3)
     colours = np.where(parity[:, None] % 2 == 1, CHECKER[0], CHECKER[1])
     colours[data["mu"][face[seen]] >= 1] = FLIPPED[:3]
     picture = np.ones((pixels, pixels, 3))
     picture[seen] = colours
+    for chain in panel["highlights"]:
+        draw_chain(picture, screen[chain])
+    show(axes, picture, seen)
+
+
+def draw_chain(picture, points, visible=lambda x, y, i, t: True):
+    """A black line, three pixels wide, through the points."""
+    for i, (a, b) in enumerate(zip(points, points[1:])):
+        steps = int(np.abs(a - b).max()) + 1
+        for t in np.linspace(0, 1, 2 * steps):
+            x, y = np.round((1 - t) * a + t * b).astype(int)
+            if visible(x, y, i, t):
+                picture[max(y - 1, 0):y + 2, max(x - 1, 0):x + 2] = (0.1, 0.1, 0.1)
+
+
+def show(axes, picture, seen):
+    """The part of a picture that is not empty."""
+    rows, columns = np.flatnonzero(seen.any(1)), np.flatnonzero(seen.any(0))
+    picture = picture[max(rows[0] // 2 * 2 - 8, 0):rows[-1] // 2 * 2 + 10,
+                      max(columns[0] // 2 * 2 - 8, 0):columns[-1] // 2 * 2 + 10]
     axes.imshow(halved(picture), origin="lower", interpolation="none")
     axes.set_axis_off()
 
@@ -133,13 +162,14 @@ def halved(picture):
 
 
 def draw_histogram(axes, panel, load):
-    bins = np.linspace(0, panel["max"], 81)
-    for entry in panel["series"]:
+    bins = np.linspace(0, panel["max"], 101)
+    for i, entry in enumerate(panel["series"]):
         data = load(entry["data"])
         weights = areas_of(data)
         # What lies beyond the axis is counted in the last bin, flipped faces too.
         share, _ = np.histogram(np.minimum(data["mu"], panel["max"] * 0.999), bins, weights=weights)
-        axes.step(bins[:-1], 100 * share / weights.sum(), where="post", label=entry["label"], linewidth=1)
+        axes.step(bins[:-1], 100 * share / weights.sum(), where="post", label=entry["label"], linewidth=1,
+                  linestyle=("-", "--", ":", "-.")[i % 4])
     if "k" in panel:
         axes.axvline(panel["k"], color="0.4", linestyle="--", linewidth=0.8)
     axes.set_xlim(0, panel["max"])
@@ -151,16 +181,20 @@ def draw_histogram(axes, panel, load):
 
 
 def draw_curves(axes, panel, load):
+    plot = axes.loglog if panel["logarithmic"] else axes.plot
     for entry in panel["series"]:
-        axes.loglog(entry["x"], entry["y"], "o-", markersize=3, linewidth=1, label=entry["label"])
+        plot(entry["x"], entry["y"], "o-" if panel["logarithmic"] else "-", markersize=3, linewidth=1,
+             label=entry["label"])
     axes.set_xlabel(panel["x"], fontsize=8)
     axes.set_ylabel(panel["y"], fontsize=8)
     axes.tick_params(labelsize=7)
     axes.grid(alpha=0.3, which="both", linewidth=0.4)
-    axes.yaxis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)))
-    axes.yaxis.set_major_formatter(ticker.FormatStrFormatter("%g"))
-    axes.yaxis.set_minor_formatter(ticker.NullFormatter())
-    axes.legend(fontsize=7, frameon=False)
+    if panel["logarithmic"]:
+        axes.yaxis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)))
+        axes.yaxis.set_major_formatter(ticker.FormatStrFormatter("%g"))
+        axes.yaxis.set_minor_formatter(ticker.NullFormatter())
+    if any(entry["label"] for entry in panel["series"]):
+        axes.legend(fontsize=7, frameon=False, loc="upper left", bbox_to_anchor=(1.0, 1.0))
 
 
 def rasterise(screen, depth, triangles, pixels):
@@ -187,15 +221,20 @@ def rasterise(screen, depth, triangles, pixels):
     return face, nearest, bary
 
 
-def draw_surface(axes, panel, load):
-    data = load(panel["data"])
+def view(panel):
+    """Unit vectors of a view: right, up, towards the eye."""
     azimuth, elevation = np.radians(panel["azimuth"]), np.radians(panel["elevation"])
     towards = np.array([np.cos(elevation) * np.cos(azimuth), np.cos(elevation) * np.sin(azimuth), np.sin(elevation)])
     right = np.array([-np.sin(azimuth), np.cos(azimuth), 0])
-    up = np.cross(towards, right)
+    return right, np.cross(towards, right), towards
+
+
+def draw_surface(axes, panel, load):
+    data = load(panel["data"])
+    right, up, towards = view(panel)
     points = data["space"] - (data["space"].max(0) + data["space"].min(0)) / 2
     flat = np.stack([points @ right, points @ up], 1)
-    pixels = 2 * int(PANEL * DPI)
+    pixels = 2 * int(PANEL * DPI * max(1, shape(panel, load)))
     low, size = flat.min(0), np.ptp(flat, axis=0).max()
     offset = (size - np.ptp(flat, axis=0)) / 2
     screen = (flat - low + offset) / size * (pixels - 20) + 10
@@ -208,11 +247,11 @@ def draw_surface(axes, panel, load):
     if panel["colour"] == "checker":
         place = np.einsum("pi,pij->pj", bary[seen], data["plane"][corners])
         square = np.ptp(data["plane"], axis=0).max() / panel["squares"]
-        parity = np.floor(place / square).astype(int).sum(1) % 2
+        parity = np.floor(place / square + OFFSET).astype(int).sum(1) % 2
         colours = np.where(parity[:, None] == 1, CHECKER[0], CHECKER[1])
         colours[data["mu"][face[seen]] >= 1] = FLIPPED[:3]
     else:
-        colours = colours_of(data["mu"][face[seen]], panel["max"])[:, :3]
+        colours = colours_of(data["mu"][face[seen]], 0, panel["max"])[:, :3]
     p = data["space"][triangles]
     normals = np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
@@ -223,16 +262,10 @@ def draw_surface(axes, panel, load):
     shade = np.where(front, 0.55 + 0.45 * np.clip(facing, 0, 1), 0.45)
     picture[seen] = colours * shade[face[seen], None]
     for chain in panel["highlights"]:
-        for a, b in zip(chain, chain[1:]):
-            steps = int(np.abs(screen[a] - screen[b]).max()) + 1
-            for t in np.linspace(0, 1, 2 * steps):
-                x, y = np.round((1 - t) * screen[a] + t * screen[b]).astype(int)
-                if nearest[y, x] <= (1 - t) * depth[a] + t * depth[b] + 0.02 * size:
-                    picture[max(y - 1, 0):y + 2, max(x - 1, 0):x + 2] = (0.1, 0.1, 0.1)
-    rows = np.flatnonzero(seen.any(1))
-    picture = picture[max(rows[0] // 2 * 2 - 8, 0):rows[-1] // 2 * 2 + 10]
-    axes.imshow(halved(picture), origin="lower", interpolation="none")
-    axes.set_axis_off()
+        d = depth[chain]
+        draw_chain(picture, screen[chain],
+                   lambda x, y, i, t: nearest[y, x] <= (1 - t) * d[i] + t * d[i + 1] + 0.02 * size)
+    show(axes, picture, seen)
 
 
 def fixed_palette():
@@ -281,6 +314,21 @@ def save(figure, path, flat):
     raise SystemExit(f"{path} does not fit into {MOST_BYTES} bytes")
 
 
+def shape(panel, load):
+    """Width over height, limited on both sides."""
+    if panel["kind"] in ("histogram", "curves"):
+        return 1.15 if len(panel["series"]) < 6 else 2.0
+    data = load(panel["data"])
+    if panel["kind"] == "surface":
+        right, up, _ = view(panel)
+        points = np.stack([data["space"] @ right, data["space"] @ up], 1)
+    else:
+        source = panel["kind"] == "map" and panel["domain"] == "source"
+        points = data["space"][:, :2] if source else data["plane"]
+    width, height = np.ptp(points, axis=0)
+    return float(np.clip(width / height, 0.4, 2.5))
+
+
 def main():
     source, target = Path(sys.argv[1]), Path(sys.argv[2])
     target.mkdir(parents=True, exist_ok=True)
@@ -296,22 +344,23 @@ def main():
                 cache[name] = read_ply(source / name)
             return cache[name]
 
-        columns = min(picture["columns"], len(panels))
-        rows = -(-len(panels) // columns)
-        width = PANEL * columns if len(panels) > 1 else 1.5 * PANEL
-        figure, grid = plt.subplots(rows, columns, figsize=(width, PANEL * rows * 1.08), squeeze=False,
-                                    layout="constrained")
-        largest = None
-        for axes in grid.flat[len(panels):]:
-            axes.set_axis_off()
-        for axes, panel in zip(grid.flat, panels):
-            largest = draw[panel["kind"]](axes, panel, load) or largest
-            axes.set_title(panel["title"], fontsize=9)
-        if largest:
-            scale = matplotlib.cm.ScalarMappable(matplotlib.colors.Normalize(0, largest), "viridis")
-            maps = [a for a, p in zip(grid.flat, panels) if p["kind"] == "map"]
-            bar = figure.colorbar(scale, ax=maps, shrink=0.7, aspect=25, pad=0.01)
-            bar.ax.tick_params(labelsize=7)
+        # One row; each panel as wide as its content asks, all of one height.
+        shapes = [shape(panel, load) for panel in panels]
+        height = min(PANEL, WIDTH / sum(shapes))
+        maps = [i for i, panel in enumerate(panels) if panel["kind"] == "map"]
+        # The bar of colours has a column of its own after the last map.
+        bar = maps[-1] + 1 if maps else None
+        ratios = shapes if bar is None else shapes[:bar] + [0.05] + shapes[bar:]
+        figure, grid = plt.subplots(1, len(ratios), figsize=(height * sum(ratios) + 0.5, height + 0.3), squeeze=False,
+                                    layout="constrained", width_ratios=ratios)
+        scale = None
+        for axes, panel in zip([a for i, a in enumerate(grid.flat) if i != bar], panels):
+            scale = draw[panel["kind"]](axes, panel, load) or scale
+            axes.set_title(panel["title"], fontsize=8)
+        if scale:
+            colours = matplotlib.cm.ScalarMappable(matplotlib.colors.Normalize(*scale), "viridis")
+            figure.colorbar(colours, cax=grid.flat[bar]).ax.tick_params(labelsize=7)
+            grid.flat[bar].set_box_aspect(16)
         save(figure, target / (picture["name"] + ".png"), all(p["kind"] != "surface" for p in panels))
         print(picture["name"])
 

@@ -18,10 +18,11 @@ double deviation(const Distortion& d, double k) {
 }  // namespace
 
 Figure figure_07(Output& output) {
-    Figure figure{"Figures 7 and 8: known maps, prescribed boundary values, convergence",
-                  "Where the extremal map is known (four points of the disk, rings, compositions) the computed maps "
-                  "match it; the deviation of |μ| from its constant falls as the mesh is refined, for boundary values "
-                  "of no known map likewise."};
+    Figure figure{
+        "Figures 7 and 8: known maps, prescribed boundary values, convergence",
+        "*The paper:* Where the extremal map is known (four points of the disk, rings, compositions) the computed maps "
+        "match it; the deviation of |μ| from its constant falls as the mesh is refined, for boundary values "
+        "of no known map likewise."};
     Table table{"", usual_head("case"), {}};
     Table order{"",
                 {"case", "triangles", "k", "exact k", "deviation of abs(μ)", "of the interpolated exact map",
@@ -59,10 +60,10 @@ Figure figure_07(Output& output) {
             if (factor != 1.0) continue;
             table.rows.push_back(usual_row(name, solved));
             const double shown = std::min(1.0, 1.6 * k);
-            Picture picture{"figure_07_" + name, problem.statement + ".", {}, 4};
+            Picture picture{"figure_07_" + name, problem.statement + ".", {}};
             const std::string data = output.write("figure_07_" + name, surface, solved);
             std::vector<std::pair<std::string, std::string>> lines{{"beltrami", data}};
-            if (surface.in_plane()) picture.panels.push_back(map_panel(data, "source", shown, "source"));
+            picture.panels.push_back(grid_panel(data, "chessboard of the source", "square", 16));
             picture.panels.push_back(map_panel(data, "extremal map", shown));
             if (problem.exact) {
                 const Solved exact = solve_with(surface, "exact", [&] { return *problem.exact; });
@@ -77,8 +78,7 @@ Figure figure_07(Output& output) {
     figure.tables = {std::move(table), std::move(order)};
     figure.pictures.push_back({"figure_08",
                                "Deviation of |μ| from the exact k (from the computed k where none is known).",
-                               {curves_panel(curves, "deviation of |μ|", "triangles", "")},
-                               1});
+                               {curves_panel(curves, "", "triangles", "deviation of |μ|")}});
     return figure;
 }
 

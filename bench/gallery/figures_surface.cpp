@@ -1,7 +1,12 @@
-// Figures of surfaces and of multiply connected domains: 2, 10, 12, 13, 14, 19.
+// Figures of surfaces in space: 10, 12, 13, 18, 19.
+#include <algorithm>
+#include <cmath>
+#include <map>
 #include <set>
 
+#include <beltrami/generate/grids.h>
 #include <beltrami/generate/random.h>
+#include <beltrami/mesh/submesh.h>
 
 #include "gallery/gallery.h"
 
@@ -9,134 +14,247 @@ namespace beltrami::gallery {
 
 using namespace beltrami::bench;
 
+Figure figure_10(Output& output) {
+    Figure figure{"Figure 10: dependence on the start",
+                  "*The paper:* A screw to an annulus from a harmonic, an ARAP and a noisy start with 924, 268 and 831 "
+                  "folds: the same map every time, without folds."};
+    const Problem problem = named_problem("screw");
+    const Surface surface(problem.mesh);
+    Table table{problem.statement + ", " + std::to_string(problem.mesh.face_count()) + " triangles",
+                {"start", "its flips", "k", "K_lower", "K", "mean abs(μ)", "std", "max", "flips", "iterations",
+                 "seconds", "distance from the first map"},
+                {}};
+    Picture starts{"figure_10", "The three starts, flipped faces in red.", {}},
+        maps{"figure_10_texture", "A chessboard of the plane under the extremal maps from these starts.", {}};
+    std::optional<Eigen::VectorXcd> first;
+    std::vector<std::pair<std::string, std::string>> lines;
+    // Noisy starts: inner vertices of a map without folds displaced by up to so much; the annulus is .55 wide.
+    const std::map<std::string, double> noise{{"noise .02", 0.02}, {"noise .05", 0.05}, {"noise .1", 0.1}};
+    for (const std::string name : {"harmonic", "ARAP", "noise .02", "noise .05", "noise .1"}) {
+        const Solved start = solve_with(surface, name, [&] {
+            if (name == "harmonic") return harmonic_map(surface, problem.boundary);
+            if (name == "ARAP") return arap_baseline(surface, problem.boundary).map;
+            Eigen::VectorXcd map = *problem.witness;
+            Random random(10);
+            for (int v = 0; v < map.size(); ++v) {
+                const double x = random.uniform(-noise.at(name), noise.at(name)),
+                             y = random.uniform(-noise.at(name), noise.at(name));
+                if (!surface.topology.on_boundary[v]) map[v] += Complex(x, y);
+            }
+            return map;
+        });
+        ExtremalOptions options;
+        options.start = start.map;
+        const Solved solved = solve(surface, problem.boundary, "extremal", options);
+        const std::string flips = std::to_string(start.distortion.flipped.size());
+        if (!solved) {
+            table.rows.push_back({name, flips, "refused: " + solved.refusal});
+            continue;
+        }
+        if (!first) first = solved.map;
+        const Distortion& d = solved.distortion;
+        table.rows.push_back(
+            {name, flips, number(*solved.k, 6), number(*solved.K_lower, 5), number(*solved.K, 5), number(d.mean, 5),
+             number(d.standard_deviation, 5), number(d.max), std::to_string(d.flipped.size()),
+             std::to_string(solved.iterations) + (solved.end == "converged" ? "" : " (" + solved.end + ")"),
+             number(solved.seconds, 2), number((solved.map - *first).cwiseAbs().maxCoeff(), 5)});
+        if (name == "noise .02" || name == "noise .1") continue;  // not drawn
+        starts.panels.push_back(
+            map_panel(output.write("figure_10_start_" + name, surface, start), name + ": " + flips + " flips"));
+        lines.push_back({"from " + name, output.write("figure_10_" + name, surface, solved)});
+        maps.panels.push_back(
+            surface_panel(lines.back().second, "from " + name, "checker", 20, 25, 30, 1, problem.highlights));
+    }
+    maps.panels.push_back(histogram_panel(lines, "|μ|", {}, 1));
+    figure.tables.push_back(std::move(table));
+    figure.pictures = {std::move(starts), std::move(maps)};
+    figure.remarks.push_back(
+        "Noise of .1, in which nearly half of all faces are turned over, is too much: what comes out is no map. The "
+        "harmonic start needs no option and is the best one.");
+    return figure;
+}
+
 namespace {
 
-/// Solves one problem with several methods; rows to the table, flat pictures and views of the surface to the figure.
-struct Comparison {
-    Output& output;
-    Figure& figure;
-    std::string name;
-    const Problem& problem;
-    BoundaryCondition boundary;
-    double azimuth = 30, elevation = 30;
-    int squares = 20;
-    double max_mu = 1;
-
-    void run(const std::vector<std::string>& methods) {
-        const Surface surface(problem.mesh);
-        Table table{problem.statement, usual_head("method"), {}};
-        Picture flat{name, problem.statement + ".", {}, 4}, views{name + "_texture", "", {}, 4};
-        views.caption =
-            surface.in_plane() ? "The image of a polar chessboard." : "A chessboard of the plane on the surface.";
-        std::vector<std::pair<std::string, std::string>> lines;
-        auto edges = problem.highlights;
-        for (const FeatureCurve& curve : problem.features) edges.push_back(curve.vertices);
-        for (const std::string& method : methods) {
-            const Solved solved = solve(surface, boundary, method);
-            table.rows.push_back(usual_row(method, solved));
-            if (!solved) continue;
-            const std::string label = method + ": " + std::to_string(solved.distortion.flipped.size()) + " flips";
-            lines.push_back({method, output.write(name + "_" + method, surface, solved)});
-            flat.panels.push_back(map_panel(lines.back().second, label, max_mu));
-            if (surface.in_plane()) {
-                views.panels.push_back(grid_panel(lines.back().second, method));
-                continue;
+/// The extremal maps of the pieces into which pinned curves cut a surface: nothing passes from piece to piece, so K* of
+/// the whole is the largest of theirs.
+Table pieces_table(const Problem& problem, const BoundaryCondition& boundary) {
+    Table table{
+        "The same, piece by piece: curves that are pinned cut the surface into problems of their own, and K* of "
+        "the whole is the largest of theirs",
+        usual_head("piece"),
+        {}};
+    std::map<int, Complex> images;
+    for (std::size_t i = 0; i < boundary.vertices.size(); ++i) images[boundary.vertices[i]] = boundary.images[i];
+    std::set<std::pair<int, int>> walls;
+    for (const FeatureCurve& curve : problem.features)
+        for (std::size_t i = 1; i < curve.vertices.size(); ++i)
+            walls.insert(std::minmax(curve.vertices[i], curve.vertices[i - 1]));
+    const FaceList& faces = problem.mesh.faces;
+    std::map<std::pair<int, int>, std::vector<int>> beside;
+    const auto edge = [&](int f, int j) {
+        return std::pair<int, int>(std::minmax(faces[f][j], faces[f][(j + 1) % 3]));
+    };
+    for (int f = 0; f < problem.mesh.face_count(); ++f)
+        for (int j = 0; j < 3; ++j) beside[edge(f, j)].push_back(f);
+    std::vector<char> done(problem.mesh.face_count(), 0);
+    for (int first = 0; first < problem.mesh.face_count(); ++first) {
+        if (done[first]) continue;
+        std::vector<int> piece{first};
+        done[first] = 1;
+        for (std::size_t i = 0; i < piece.size(); ++i)
+            for (int j = 0; j < 3; ++j) {
+                if (walls.contains(edge(piece[i], j))) continue;
+                for (const int g : beside[edge(piece[i], j)])
+                    if (!done[g]) {
+                        done[g] = 1;
+                        piece.push_back(g);
+                    }
             }
-            views.panels.push_back(
-                surface_panel(lines.back().second, method, "checker", azimuth, elevation, squares, max_mu, edges));
-        }
-        flat.panels.push_back(histogram_panel(lines, "|μ|", {}, max_mu));
-        figure.tables.push_back(std::move(table));
-        figure.pictures.push_back(std::move(flat));
-        if (!views.panels.empty()) figure.pictures.push_back(std::move(views));
+        std::sort(piece.begin(), piece.end());
+        const Submesh part = keep_faces(problem.mesh, piece);
+        const Surface surface(part.mesh);
+        BoundaryCondition own;
+        for (const auto& loop : surface.topology.boundary_loops)
+            for (const int v : loop) own.pin(v, images.at(part.vertices[v]));
+        table.rows.push_back(
+            usual_row(std::to_string(part.mesh.face_count()) + " triangles", solve(surface, own, "extremal")));
     }
-};
+    return table;
+}
 
 }  // namespace
 
-Figure figure_02(Output& output) {
-    Figure figure{"Figure 2: homotopy classes",
-                  "On a ring, maps with the same boundary values need not be homotopic; an extremal map is unique in "
-                  "each class only."};
-    Table table{
-        "Exact maps of .05 < |z| < 1 to .0112 < |w| < 1 with the same boundary values: r → r^1.5 and so many turns",
-        {"turns", "exact k", "exact K", "mean abs(μ)", "std", "flips"},
-        {}};
-    Picture picture{"figure_02", "The same boundary values, different turns: the exact extremal maps.", {}, 4};
-    for (const int turns : {-1, 0, 1, 2}) {
-        const Problem problem = annulus_turns(0.06, turns);
-        const Surface surface(problem.mesh);
-        const Solved exact = solve_with(surface, "exact", [&] { return *problem.exact; });
-        const std::string name = std::to_string(turns);
-        const double k = *problem.exact_k;
-        table.rows.push_back({name, number(k, 5), number((1 + k) / (1 - k), 4), number(exact.distortion.mean, 5),
-                              number(exact.distortion.standard_deviation, 5),
-                              std::to_string(exact.distortion.flipped.size())});
-        // Lines of the source: |μ| alone would be one colour.
-        picture.panels.push_back(grid_panel(output.write("figure_02_" + std::to_string(turns + 1), surface, exact),
-                                            name + (turns == 1 || turns == -1 ? " turn" : " turns")));
-    }
-    figure.tables.push_back(std::move(table));
-    figure.pictures.push_back(std::move(picture));
-    return figure;
-}
-
-Figure figure_10(Output& output) {
-    Figure figure{"Figure 10: dependence on the start",
-                  "A screw to an annulus from a harmonic, an ARAP and a noisy start with 924, 268 and 831 folds: the "
-                  "same map every time, without folds."};
-    const Problem problem = named_problem("screw");
-    Comparison{output, figure, "figure_10", problem, problem.boundary, 20, 25, 30}.run(
-        {"harmonic", "ARAP", "extremal"});
-    // The noisy start: the harmonic map with inner vertices displaced.
-    const Surface surface(problem.mesh);
-    const Solved noisy = solve_with(surface, "noisy", [&] {
-        Eigen::VectorXcd map = harmonic_map(surface, problem.boundary);
-        Random random(10);
-        for (int v = 0; v < map.size(); ++v) {
-            const double x = random.uniform(-0.05, 0.05), y = random.uniform(-0.05, 0.05);
-            if (!surface.topology.on_boundary[v]) map[v] += Complex(x, y);
-        }
-        return map;
-    });
-    figure.tables[0].rows.push_back(usual_row("noisy start", noisy));
-    return figure;
-}
-
 Figure figure_12(Output& output) {
     Figure figure{"Figure 12: aligned sharp features",
-                  "The front of the fandisk, its features and boundary on parametric lines: harmonic and ARAP maps "
-                  "fold or distort strongly, the extremal map does not."};
+                  "*The paper:* The front of the fandisk, its features and boundary on parametric lines: harmonic and "
+                  "ARAP maps fold or distort strongly, the extremal map does not."};
     const Problem problem = named_problem("cad_part");
-    // Features pinned by arc length along their lines.
-    BoundaryCondition boundary = problem.boundary;
-    std::set<int> pinned(boundary.vertices.begin(), boundary.vertices.end());
-    for (const FeatureCurve& curve : problem.features)
-        for (std::size_t i = 0; i < curve.vertices.size(); ++i)
-            if (pinned.insert(curve.vertices[i]).second) boundary.pin(curve.vertices[i], curve.images[i]);
-    Comparison{output, figure, "figure_12", problem, boundary, -40, 50, 24, 0.7}.run({"harmonic", "ARAP", "extremal"});
+    // Features pinned by arc length along their lines, or held on their lines only.
+    for (const bool sliding : {false, true}) {
+        BoundaryCondition boundary = problem.boundary;
+        std::set<int> taken(boundary.vertices.begin(), boundary.vertices.end());
+        std::map<int, int> curves;  // through a vertex
+        for (const FeatureCurve& curve : problem.features)
+            for (const int v : curve.vertices) ++curves[v];
+        for (const FeatureCurve& curve : problem.features)
+            for (std::size_t i = 0; i < curve.vertices.size(); ++i) {
+                const int v = curve.vertices[i];
+                if (!taken.insert(v).second) continue;
+                // Where curves cross both coordinates are fixed.
+                if (!sliding || curves[v] > 1)
+                    boundary.pin(v, curve.images[i]);
+                else if (curve.fixed == FeatureCurve::Fixed::u)
+                    boundary.pin_to_line(v, {curve.value, 0}, {0, 1});
+                else
+                    boundary.pin_to_line(v, {0, curve.value}, {1, 0});
+            }
+        Comparison{output, figure, sliding ? "figure_12_lines" : "figure_12", problem, boundary, -40, 50, 24, 0.7}.run(
+            sliding ? std::vector<std::string>{"harmonic", "extremal"}
+                    : std::vector<std::string>{"harmonic", "ARAP", "extremal"});
+        figure.tables.back().caption +=
+            sliding ? "; features free to slide along their lines" : "; features pinned by arc length";
+        for (Picture* picture : {&figure.pictures.back(), &figure.pictures[figure.pictures.size() - 2]})
+            picture->caption.insert(picture->caption.size() - 1,
+                                    sliding ? "; features slide along their lines" : "; features pinned by arc length");
+        if (!sliding) figure.tables.push_back(pieces_table(problem, boundary));
+    }
+    figure.remarks.push_back(
+        "Our part is gentler than the fandisk: no method folds. With pinned features φ may be another one on every "
+        "piece, which the space of differentials (poles at the pins) can only approach: K_lower and K are below the "
+        "largest K of the pieces.");
     return figure;
 }
 
 Figure figure_13(Output& output) {
-    Figure figure{"Figure 13: a multiply connected curved surface",
-                  "A large curved model with holes, aligned to all its boundaries, without cones or cuts."};
+    Figure figure{
+        "Figure 13: a multiply connected curved surface",
+        "*The paper:* A large curved model with holes, aligned to all its boundaries, without cones or cuts."};
     const Problem problem = named_problem("curved_plate");
-    Comparison{output, figure, "figure_13", problem, problem.boundary, -60, 45, 30}.run({"harmonic", "extremal"});
+    Comparison{output, figure, "figure_13", problem, problem.boundary, -60, 45, 30, 0.7}.run({"harmonic", "extremal"});
     return figure;
 }
 
-Figure figure_14(Output& output) {
-    Figure figure{"Figure 14: image deformation",
-                  "A doughnut deformed to another thickness: ARAP develops folds, the extremal map has none."};
-    const Problem problem = named_problem("doughnut");
-    Comparison{output, figure, "figure_14", problem, problem.boundary}.run({"ARAP", "extremal"});
+Figure figure_18(Output& output) {
+    Figure figure{"Figure 18: combined with the metric of an ARAP map",
+                  "*The paper:* A quasiconformal parametrization in the metric of an ARAP map reduces the artifacts at "
+                  "constraints, at the cost of more distortion elsewhere; so markers can be moved to where they should "
+                  "be."};
+    // A hilly square; its ARAP map is the parametrization to improve.
+    Problem problem;
+    Mesh plane = rectangle(2, 2, 70, 70);
+    problem.mesh.faces = plane.faces;
+    problem.mesh.positions.resize(plane.vertex_count(), 3);
+    for (int v = 0; v < plane.vertex_count(); ++v) {
+        const double x = plane.positions(v, 0) - 1, y = plane.positions(v, 1) - 1;
+        problem.mesh.positions.row(v) << x, y,
+            0.5 * std::exp(-6 * ((x - .25) * (x - .25) + (y - .2) * (y - .2))) + 0.15 * std::sin(3 * x + y);
+    }
+    const Surface surface(problem.mesh);
+    const Eigen::VectorXcd flat = arap_baseline(surface, {}).map;
+    Mesh textured = problem.mesh;
+    Positions corners(static_cast<int>(textured.faces.corner_count()), 2);
+    int corner = 0;
+    for (int f = 0; f < textured.face_count(); ++f)
+        for (const int v : textured.faces[f]) corners.row(corner++) << flat[v].real(), flat[v].imag();
+    const Surface in_arap(problem.mesh, corners);
+    // The boundary stays where the ARAP map has it; four markers are moved.
+    BoundaryCondition boundary;
+    for (const int v : surface.topology.boundary_loops[0]) boundary.pin(v, flat[v]);
+    const std::pair<Complex, Complex> markers[] = {
+        {{-.5, -.5}, {.2, .05}}, {{.5, -.5}, {.05, .2}}, {{.5, .5}, {-.2, -.05}}, {{-.5, .5}, {-.05, -.2}}};
+    for (const auto& [place, shift] : markers) {
+        int nearest = 0;
+        double best = 1e300;
+        for (int v = 0; v < problem.mesh.vertex_count(); ++v) {
+            const double d = std::abs(Complex(problem.mesh.positions(v, 0), problem.mesh.positions(v, 1)) - place);
+            if (d < best) best = d, nearest = v;
+        }
+        boundary.pin(nearest, flat[nearest] + shift);
+    }
+    Table table{"A hilly square, its boundary where its ARAP map has it, four markers moved",
+                {"map", "metric", "k", "K_lower", "K", "mean abs(μ) in the ARAP metric", "std", "p99", "max", "flips",
+                 "mean abs(μ) on the surface", "std", "iterations"},
+                {}};
+    Picture picture{"figure_18", "|μ| in the ARAP metric.", {}},
+        views{"figure_18_texture", "A chessboard of the plane; markers in black.", {}};
+    std::vector<std::vector<int>> crosses;
+    for (std::size_t i = boundary.vertices.size() - 4; i < boundary.vertices.size(); ++i) {
+        const int v = boundary.vertices[i];
+        crosses.push_back({v - 1, v, v + 1});
+        crosses.push_back({v - 71, v, v + 71});
+    }
+    const auto add = [&](const std::string& name, const std::string& metric, const Solved& solved) {
+        if (!solved) {
+            table.rows.push_back({name, metric, "refused: " + solved.refusal});
+            return;
+        }
+        const Distortion arap = distortion(in_arap.operators, solved.map),
+                         own = distortion(surface.operators, solved.map);
+        table.rows.push_back({name, metric, solved.k ? number(*solved.k) : "",
+                              solved.K_lower ? number(*solved.K_lower) : "", solved.K ? number(*solved.K) : "",
+                              number(arap.mean), number(arap.standard_deviation), number(arap.p99), number(arap.max),
+                              std::to_string(arap.flipped.size()), number(own.mean), number(own.standard_deviation),
+                              solved.iterations > 0 ? std::to_string(solved.iterations) : ""});
+        const std::string data = output.write("figure_18_" + std::to_string(picture.panels.size()), surface.mesh,
+                                              solved.map, arap.face_abs_mu);
+        picture.panels.push_back(map_panel(data, name + (metric.empty() ? "" : ", " + metric), 0.6));
+        views.panels.push_back(
+            surface_panel(data, name + (metric.empty() ? "" : ", " + metric), "checker", -60, 50, 24, 1, crosses));
+    };
+    add("ARAP, no markers", "", solve_with(surface, "ARAP", [&] { return flat; }));
+    add("ARAP with markers", "", solve(surface, boundary, "ARAP"));
+    add("extremal", "surface", solve(surface, boundary, "extremal"));
+    add("extremal", "ARAP", solve(in_arap, boundary, "extremal"));
+    figure.tables.push_back(std::move(table));
+    figure.pictures = {std::move(picture), std::move(views)};
     return figure;
 }
 
 Figure figure_19(Output& output) {
     Figure figure{"Figure 19: a ball with twelve holes",
-                  "A ball with twelve pentagonal holes to a disk with round holes: the harmonic map has more than 800 "
+                  "*The paper:* A ball with twelve pentagonal holes to a disk with round holes: the harmonic map has "
+                  "more than 800 "
                   "flipped triangles, ARAP more than 600, the extremal map none."};
     const Problem problem = named_problem("pierced_ball", 0.035);
     Comparison{output, figure, "figure_19", problem, problem.boundary, 30, 20, 24}.run(

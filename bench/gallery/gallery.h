@@ -27,10 +27,9 @@ struct Picture {
     std::string name;     ///< without extension
     std::string caption;  ///< one sentence
     std::vector<nlohmann::json> panels;
-    int columns = 4;  ///< panels in a row
 };
 
-/// One section of docs/gallery.md.
+/// One section of docs/gallery.md. Without a title: not made, the section stays as it is.
 struct Figure {
     std::string title;      ///< "Figures 7 and 8: …"
     std::string statement;  ///< what the paper states there
@@ -44,16 +43,23 @@ struct Solved {
     std::string method;
     Eigen::VectorXcd map;  ///< empty: refused
     Distortion distortion = {};
-    std::optional<double> k, K_lower;
+    std::optional<double> k, K, K_lower;
     int iterations = 0;
+    std::string end;                 ///< of an extremal map: "converged", …
+    std::optional<ExtremalMap> all;  ///< of an extremal map
     double seconds = 0;
     std::string refusal;  ///< the error's sentence
 
     explicit operator bool() const { return map.size() > 0; }
 };
 
-/// Solves with a method; an Error becomes a refusal, so that a figure shows what is possible today.
-Solved solve(const Surface& surface, const BoundaryCondition& boundary, const std::string& method);
+/// Solves with "harmonic", "ARAP", "MIPS", "least maximum" or "extremal"; an Error becomes a refusal, so that a figure
+/// shows what is possible today.
+/// @param options of extremal and least maximum; without a wish for `sharpen` bounds are those of quadratic maps
+Solved solve(const Surface& surface, const BoundaryCondition& boundary, const std::string& method,
+             ExtremalOptions options = {});
+/// Seconds of a harmonic map of this problem, the best of three.
+double harmonic_seconds(const Surface& surface, const BoundaryCondition& boundary);
 /// Any other way to a map.
 Solved solve_with(const Surface& surface, const std::string& method, const std::function<Eigen::VectorXcd()>& map);
 
@@ -62,30 +68,36 @@ class Output {
   public:
     /// @param folder for data files, made if need be
     explicit Output(std::filesystem::path folder);
-    /// Writes mesh, map (u, v) and |μ| of the faces as NAME.ply; returns the file's name.
+    /// Writes mesh (that of the map, if edges were split), map (u, v) and |μ| of the faces as NAME.ply; returns the
+    /// file's name.
     std::string write(const std::string& name, const Surface& surface, const Solved& solved);
+    /// The same with other values of the faces in place of |μ|.
+    std::string write(const std::string& name, const Mesh& mesh, const Eigen::VectorXcd& map, Eigen::VectorXd values);
     const std::filesystem::path& folder() const { return folder_; }
 
   private:
     std::filesystem::path folder_;
 };
 
-// Panels. |μ| is coloured from 0 to max_mu, flipped faces are red.
+// Panels. |μ| is coloured from 0 (or min_mu) to max_mu, flipped faces are red.
 /// The image of a map; domain "source": the planar source itself with the colours of the map.
 nlohmann::json map_panel(const std::string& data, const std::string& title, double max_mu = 1,
-                         const std::string& domain = "image");
-/// The image of a planar mesh with a polar chessboard of the source, 24 sectors and rings of their shape.
-nlohmann::json grid_panel(const std::string& data, const std::string& title);
+                         const std::string& domain = "image", double min_mu = 0);
+/// The image of a planar mesh with a chessboard of the source. pattern "polar": sectors and rings of their shape;
+/// "disk": sectors and rings of equal width; "square": so many squares to the larger side of the source.
+/// @param lines chains of vertices to draw
+nlohmann::json grid_panel(const std::string& data, const std::string& title, const std::string& pattern = "polar",
+                          int count = 24, const std::vector<std::vector<int>>& lines = {});
 /// Histograms of |μ|, one line each; a vertical line at k.
 nlohmann::json histogram_panel(const std::vector<std::pair<std::string, std::string>>& labels_and_data,
                                const std::string& title, std::optional<double> k = {}, double max_mu = 1);
-/// Curves in logarithmic axes.
+/// Curves, in logarithmic axes unless told otherwise.
 struct Curve {
     std::string label;
     std::vector<double> x, y;
 };
 nlohmann::json curves_panel(const std::vector<Curve>& curves, const std::string& title, const std::string& x_label,
-                            const std::string& y_label);
+                            const std::string& y_label, bool logarithmic = true);
 /// The source in space. colour "checker" (squares of the map's plane, so many to the larger side of its image) or "mu".
 nlohmann::json surface_panel(const std::string& data, const std::string& title, const std::string& colour,
                              double azimuth, double elevation, int squares = 20, double max_mu = 1,
@@ -93,9 +105,24 @@ nlohmann::json surface_panel(const std::string& data, const std::string& title, 
 
 /// Numbers for tables.
 std::string number(double value, int digits = 4);
-/// Head and cells that most tables share: method, k, K_lower, mean and std of |μ|, p99, max, flips, iterations.
+/// Head and cells that most tables share.
 std::vector<std::string> usual_head(const std::string& first);
 std::vector<std::string> usual_row(const std::string& first, const Solved& solved);
+
+/// Solves one problem with several methods; rows to the table, flat pictures and views of the surface to the figure.
+struct Comparison {
+    Output& output;
+    Figure& figure;
+    std::string name;  ///< of the pictures
+    const bench::Problem& problem;
+    BoundaryCondition boundary;
+    double azimuth = 30, elevation = 30;
+    int squares = 20;
+    double max_mu = 1;
+    std::string pattern = "polar";  ///< of the chessboard of planar sources
+
+    std::vector<Solved> run(const std::vector<std::string>& methods);
+};
 
 /// A figure by its short name.
 struct Entry {
@@ -117,6 +144,12 @@ Figure figure_14(Output& output);  ///< image deformation
 Figure figure_15(Output& output);  ///< other energies
 Figure figure_16(Output& output);  ///< regular and irregular meshes
 Figure figure_17(Output& output);  ///< few triangles
+Figure figure_18(Output& output);  ///< combined with the metric of an ARAP map
 Figure figure_19(Output& output);  ///< a ball with twelve holes
+
+// Beyond the paper.
+Figure corners(Output& output);   ///< corners of the source and of the boundary values
+Figure scan(Output& output);      ///< mcqc3d_planar_src.obj with its pins, if the folder BELTRAMI_MESHES has it
+Figure holes_27(Output& output);  ///< 27 holes
 
 }  // namespace beltrami::gallery

@@ -22,8 +22,12 @@ constexpr const char* introduction =
     "# Gallery\n\n"
     "Figures of Weber, Myles, Zorin, *Computing extremal quasiconformal maps*, 2012, made again with beltrami by\n"
     "`./run gallery`. Shapes that the paper does not give are made here (`bench/support/problems.h`), so its numbers\n"
-    "are for orientation. Colours show |μ|; flipped faces are red. Tables: k of the last step, the lower bound on K\n"
-    "([certificate](certificate.md)), and the statistics of |μ| over the faces, weighted by area.\n\n";
+    "are for orientation. Colours show |μ|; flipped faces are red. Tables: the estimate of k, the lower bound on K of\n"
+    "the extremal map and the estimate of K ([certificate](certificate.md), the bounds of quadratic maps), and the\n"
+    "statistics of |μ| over the faces, weighted by area. Iterations: linear solves, Newton steps for the methods that\n"
+    "are not linear; seconds on a busy machine, bounds included. A chessboard is that of the source on the image of a\n"
+    "planar source, that of the plane on a surface in space. In histograms the last bin holds all that lies "
+    "beyond.\n\n";
 
 std::string marker(const std::string& name) {
     return "<!-- " + name + " -->\n";
@@ -48,7 +52,7 @@ std::string row_of(const std::vector<std::string>& cells) {
 }
 
 std::string section(const std::string& name, const Figure& figure) {
-    std::string text = marker(name) + "## " + figure.title + "\n\n*The paper:* " + figure.statement + "\n\n";
+    std::string text = marker(name) + "## " + figure.title + "\n\n" + figure.statement + "\n\n";
     for (const Table& table : figure.tables) {
         if (!table.caption.empty()) text += table.caption + ".\n\n";
         text += row_of(table.head) + row_of(std::vector<std::string>(table.head.size(), "---"));
@@ -88,11 +92,10 @@ int main(int argc, char** argv) {
             fmt::print("{}\n", entry.name);
             std::fflush(stdout);
             const Figure figure = entry.make(output);
+            if (figure.title.empty()) continue;
             sections[entry.name] = section(entry.name, figure);
             for (const Picture& picture : figure.pictures)
-                if (!picture.panels.empty())
-                    pictures.push_back(
-                        {{"name", picture.name}, {"columns", picture.columns}, {"panels", picture.panels}});
+                if (!picture.panels.empty()) pictures.push_back({{"name", picture.name}, {"panels", picture.panels}});
         }
         std::ofstream(output.folder() / "pictures.json") << pictures.dump(1) << "\n";
         std::ofstream page(argv[2]);

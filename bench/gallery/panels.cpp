@@ -13,22 +13,30 @@ Output::Output(std::filesystem::path folder) : folder_(std::move(folder)) {
 }
 
 std::string Output::write(const std::string& name, const Surface& surface, const Solved& solved) {
-    Positions map(surface.mesh.vertex_count(), 2);
-    for (int v = 0; v < surface.mesh.vertex_count(); ++v) map.row(v) << solved.map[v].real(), solved.map[v].imag();
+    const bool split = solved.all && solved.all->split && solved.all->split->split_edges > 0;
+    return write(name, split ? solved.all->split->mesh : surface.mesh, solved.map, solved.distortion.face_abs_mu);
+}
+
+std::string Output::write(const std::string& name, const Mesh& mesh, const Eigen::VectorXcd& images,
+                          Eigen::VectorXd values) {
+    Positions map(mesh.vertex_count(), 2);
+    for (int v = 0; v < mesh.vertex_count(); ++v) map.row(v) << images[v].real(), images[v].imag();
     // What has no |μ| or an infinite one is drawn as flipped.
-    Eigen::VectorXd size = solved.distortion.face_abs_mu;
-    for (Eigen::Index f = 0; f < size.size(); ++f)
-        if (!std::isfinite(size[f])) size[f] = 1e30;
-    write_mesh(folder_ / (name + ".ply"), {surface.mesh, map, {{"abs_mu", size}}});
+    for (Eigen::Index f = 0; f < values.size(); ++f)
+        if (!std::isfinite(values[f])) values[f] = 1e30;
+    write_mesh(folder_ / (name + ".ply"), {mesh, map, {{"abs_mu", values}}});
     return name + ".ply";
 }
 
-json map_panel(const std::string& data, const std::string& title, double max_mu, const std::string& domain) {
-    return {{"kind", "map"}, {"data", data}, {"title", title}, {"max", max_mu}, {"domain", domain}};
+json map_panel(const std::string& data, const std::string& title, double max_mu, const std::string& domain,
+               double min_mu) {
+    return {{"kind", "map"}, {"data", data}, {"title", title}, {"max", max_mu}, {"domain", domain}, {"min", min_mu}};
 }
 
-json grid_panel(const std::string& data, const std::string& title) {
-    return {{"kind", "grid"}, {"data", data}, {"title", title}};
+json grid_panel(const std::string& data, const std::string& title, const std::string& pattern, int count,
+                const std::vector<std::vector<int>>& lines) {
+    return {{"kind", "grid"},     {"data", data},   {"title", title},
+            {"pattern", pattern}, {"count", count}, {"highlights", lines}};
 }
 
 json histogram_panel(const std::vector<std::pair<std::string, std::string>>& labels_and_data, const std::string& title,
@@ -41,10 +49,11 @@ json histogram_panel(const std::vector<std::pair<std::string, std::string>>& lab
 }
 
 json curves_panel(const std::vector<Curve>& curves, const std::string& title, const std::string& x_label,
-                  const std::string& y_label) {
+                  const std::string& y_label, bool logarithmic) {
     json series = json::array();
     for (const Curve& curve : curves) series.push_back({{"label", curve.label}, {"x", curve.x}, {"y", curve.y}});
-    return {{"kind", "curves"}, {"series", series}, {"title", title}, {"x", x_label}, {"y", y_label}};
+    return {{"kind", "curves"}, {"series", series}, {"title", title},
+            {"x", x_label},     {"y", y_label},     {"logarithmic", logarithmic}};
 }
 
 json surface_panel(const std::string& data, const std::string& title, const std::string& colour, double azimuth,
@@ -61,21 +70,24 @@ std::string number(double value, int digits) {
 }
 
 std::vector<std::string> usual_head(const std::string& first) {
-    return {first, "k", "K_lower", "mean abs(μ)", "std", "p99", "max", "flips", "iterations"};
+    return {first, "k", "K_lower", "K", "mean abs(μ)", "std", "p99", "max", "flips", "iterations", "seconds"};
 }
 
 std::vector<std::string> usual_row(const std::string& first, const Solved& solved) {
-    if (!solved) return {first, "refused: " + solved.refusal, "", "", "", "", "", "", ""};
+    if (!solved) return {first, "refused: " + solved.refusal, "", "", "", "", "", "", "", "", ""};
     const Distortion& d = solved.distortion;
     return {first,
             solved.k ? number(*solved.k) : "",
             solved.K_lower ? number(*solved.K_lower) : "",
+            solved.K ? number(*solved.K) : "",
             number(d.mean),
             number(d.standard_deviation),
             number(d.p99),
             number(d.max, 3),
             std::to_string(d.flipped.size()),
-            solved.iterations > 0 ? std::to_string(solved.iterations) : ""};
+            (solved.iterations > 0 ? std::to_string(solved.iterations) : "") +
+                (solved.end.empty() || solved.end == "converged" ? "" : " (" + solved.end + ")"),
+            solved.seconds > 0 ? number(solved.seconds, 2) : ""};
 }
 
 }  // namespace beltrami::gallery

@@ -1,6 +1,7 @@
 #include <beltrami/maps/beltrami_solver.h>
 #include <beltrami/mesh/error.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "gallery/gallery.h"
@@ -17,7 +18,7 @@ Solved run(const Surface& surface, const std::string& method, const std::functio
     try {
         solver(result);
         result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        result.distortion = distortion(surface.operators, result.map);
+        result.distortion = result.all ? result.all->distortion : distortion(surface.operators, result.map);
     } catch (const Error& error) {
         result.map.resize(0);
         result.refusal = error.what();
@@ -27,28 +28,53 @@ Solved run(const Surface& surface, const std::string& method, const std::functio
 
 }  // namespace
 
-Solved solve(const Surface& surface, const BoundaryCondition& boundary, const std::string& method) {
+Solved solve(const Surface& surface, const BoundaryCondition& boundary, const std::string& method,
+             ExtremalOptions options) {
+    if (!options.sharpen) options.sharpen = 0;
     return run(surface, method, [&](Solved& result) {
         const auto take = [&](BaselineMap found) {
             result.map = std::move(found.map);
             result.iterations = found.iterations;
         };
         if (method == "extremal") {
-            ExtremalMap found = extremal_map(surface, boundary);
-            result.map = std::move(found.map);
+            result.all = extremal_map(surface, boundary, options);
+            const ExtremalMap& found = *result.all;
+            result.map = found.map;
             result.k = found.k;
+            result.K = found.K;
             result.K_lower = found.K_lower;
             result.iterations = found.iterations;
+            result.end = found.termination == Termination::converged         ? "converged"
+                         : found.termination == Termination::not_teichmuller ? "not Teichmüller"
+                                                                             : "iteration limit";
         } else if (method == "harmonic") {
-            take(harmonic_baseline(surface, boundary));
+            result.map = harmonic_map(surface, boundary);  // lines too, unlike the baseline
         } else if (method == "ARAP") {
             take(arap_baseline(surface, boundary));
         } else if (method == "MIPS") {
             take(mips_baseline(surface, boundary));
+        } else if (method == "least maximum") {
+            LeastMaximumOptions least;
+            least.extremal = options;
+            LeastMaximumMap found = least_maximum_map(surface, boundary, least);
+            if (found.split && found.split->split_edges > 0) throw Error(Cause::not_solved, "edges had to be split");
+            result.map = std::move(found.map);
+            result.iterations = found.iterations;
+            // Bounds of the extremal map it starts from: of the class.
+            if (found.extremal) result.K_lower = found.extremal->K_lower;
         } else {
             throw Error(Cause::bad_option, "there is no method " + method);
         }
     });
+}
+
+double harmonic_seconds(const Surface& surface, const BoundaryCondition& boundary) {
+    double best = 1e300;
+    for (int i = 0; i < 3; ++i)
+        best = std::min(best, run(surface, "harmonic", [&](Solved& result) {
+                                  result.map = harmonic_map(surface, boundary);
+                              }).seconds);
+    return best;
 }
 
 Solved solve_with(const Surface& surface, const std::string& method, const std::function<Eigen::VectorXcd()>& map) {

@@ -161,7 +161,7 @@ std::vector<int> relative_turns(const Problem& problem, const Eigen::VectorXcd& 
                 next[v] = queue[i];
                 queue.push_back(v);
             }
-    std::vector<int> result;
+    std::vector<int> result{0};
     for (std::size_t l = 1; l < shape.boundary_loops.size(); ++l) {
         std::vector<Complex> image;
         for (const int v : shape.boundary_loops[l]) image.push_back(map[v]);
@@ -169,8 +169,8 @@ std::vector<int> relative_turns(const Problem& problem, const Eigen::VectorXcd& 
         // No edge crosses the hole, so each turns by less than half a turn about a point in it.
         double turned = 0;
         for (int v = shape.boundary_loops[l][0]; next[v] != v; v = next[v])
-            turned += std::arg((map[next[v]] - centre) / (map[v] - centre)) -
-                      std::arg((other[next[v]] - centre) / (other[v] - centre));
+            turned += std::arg((other[next[v]] - centre) / (other[v] - centre)) -
+                      std::arg((map[next[v]] - centre) / (map[v] - centre));
         result.push_back(static_cast<int>(std::lround(turned / (2 * std::numbers::pi))));
     }
     return result;

@@ -20,9 +20,9 @@ struct MapQuality {
 };
 MapQuality map_quality(const Problem& problem, const Eigen::VectorXcd& map);
 
-/// By how many turns two maps with the same boundary values differ: for each hole (loop 1, 2, …) the counter-clockwise
-/// turns of the outer boundary against it under @p map, less those under @p other. All 0 for homotopic maps; with two
-/// or more holes maps of different braids can have all 0 too.
+/// By how many turns two maps with the same boundary values differ: for each boundary loop its counter-clockwise
+/// turns against the outer one under @p map, less those under @p other; 0 for the outer loop 0. All 0 for homotopic
+/// maps; with two or more holes maps of different braids can have all 0 too.
 /// @pre both maps are without flips (else an edge can cross the image of a hole)
 std::vector<int> relative_turns(const Problem& problem, const Eigen::VectorXcd& map, const Eigen::VectorXcd& other);
 

@@ -32,8 +32,8 @@ struct Problem {
     std::optional<double> exact_k;            ///< of the continuous problem
     std::optional<Eigen::VectorXcd> exact;    ///< #V the extremal map of the continuous problem
     std::optional<Eigen::VectorXcd> witness;  ///< #V a piecewise linear map without flips that obeys the boundary
-    /// Homotopy class: counter-clockwise turns of the outer boundary's image against that of each hole, against the
-    /// class in which the boundary values were written down; empty: none. @ref witness, where given, lies in the class.
+    /// Homotopy class as ExtremalOptions::turns: per boundary loop the counter-clockwise turns of its image against the
+    /// outer one's, 0 for the outer loop; empty: the class of the harmonic map. @ref witness, where given, lies in it.
     std::vector<int> turns = {};
     std::vector<FeatureCurve> features = {};  ///< inner curves to align (and the sides of the boundary, for sliding)
     std::vector<std::vector<int>> highlights = {};  ///< sharp edges of the source, chains of vertices, for pictures

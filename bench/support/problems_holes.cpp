@@ -34,22 +34,22 @@ Problem ring(double edge_length) {
         (K - 1) / (K + 1));
 }
 
-// In log z the map is linear, [[κ, 0], [s, 1]] on (log r, angle), and s turns the inner circle by −s·log(r0).
+// In log z the map is linear, [[κ, 0], [s, 1]] on (log r, angle), and s turns the inner circle by s·log(r0).
 Problem annulus_turns(double edge_length, int turns) {
-    const double r0 = 0.05, kappa = 1.5, s = 2 * pi * turns / -std::log(r0);
+    const double r0 = 0.05, kappa = 1.5, s = 2 * pi * turns / std::log(r0);
     const double sum = kappa * kappa + s * s + 1, root = std::sqrt(sum * sum - 4 * kappa * kappa);
     const double K = (sum + root) / (2 * kappa);  // σmax/σmin = σmax²/det
     Problem problem = with_exact_map(
         "annulus",
-        "The annulus .05 < |z| < 1 to .0112 < |w| < 1, r → r^1.5, the outer circle " + std::to_string(turns) +
-            " turns ahead of the inner one",
+        "The annulus .05 < |z| < 1 to .0112 < |w| < 1, r → r^1.5, the inner circle " + std::to_string(turns) +
+            " turns ahead of the outer one",
         round_annulus(r0, edge_length),
         [=](Complex z) {
             const double log_r = std::log(std::abs(z));
             return std::polar(std::exp(kappa * log_r), std::arg(z) + s * log_r);
         },
         (K - 1) / (K + 1));
-    problem.turns = {turns};
+    problem.turns = {0, turns};
     return problem;
 }
 

@@ -58,7 +58,8 @@ Problem screw(double edge_length) {
             const int phase = ((i * starts + j * starts) % nu + nu) % nu;
             const double tooth = std::abs(2.0 * phase / nu - 1);  // 1 on the sharp edge, 0 half way to the next
             const double fade = smoothstep(0, 0.12, along) * smoothstep(0, 0.12, 1 - along);
-            const double radius = 1 - depth * fade * (1 - tooth);
+            // The lower rim is a little wider: so it is loop 0, the outer one, on every mesh.
+            const double radius = 1 + 0.01 * (1 - smoothstep(0, 0.12, along)) - depth * fade * (1 - tooth);
             mesh.positions.row(v) << radius * std::cos(angle), radius * std::sin(angle), j * step;
             // The lower rim goes outside: so the front of the surface is seen from above.
             (*problem.witness)[v] = std::polar(1 - (1 - inner) * along, angle);
