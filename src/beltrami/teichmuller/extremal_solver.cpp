@@ -42,7 +42,7 @@ double deviation(const Operators& operators, const Eigen::VectorXcd& mu, const E
 constexpr double kRough = 0.6;
 
 /// A map that is farther than this part of k from |μ| = k is evened out: where φ is singular, and elsewhere.
-constexpr double kUnevenAtSingularities = 0.02, kUneven = 0.1;
+constexpr double kUnevenAtSingularities = 0.02, kUneven = 0.1, kUnevenAtAll = 2e-3;
 /// Where evening out is to be expected, the iteration ends at this change of φ, its square of k, or after so many
 /// steps.
 constexpr double kRoughTolerance = 0.03;
@@ -208,7 +208,7 @@ struct ExtremalSolver::Implementation {
     /// Whether the map is far from |μ| = k, or folded.
     bool uneven() const {
         return folded() || deviation(source.operators, beltrami_coefficient(source.operators, map), step.phi, step.k) >
-                               (problem.singular() ? kUnevenAtSingularities : kUneven) * step.k;
+                               std::max(kUnevenAtAll, (problem.singular() ? kUnevenAtSingularities : kUneven) * step.k);
     }
 
     /// What vertices may do after the iteration: those on lines stay where they are.
@@ -386,6 +386,10 @@ ExtremalMap ExtremalSolver::Implementation::record() const {
         result.warnings.push_back("flipped faces in the result: " + std::to_string(result.distortion.flipped.size()) +
                                   "; it is not one-to-one there" +
                                   (result.K_lower > 1 ? "" : " and no lower bound can be given"));
+    if (!boundary.lines.empty())
+        result.warnings.push_back(
+            "vertices are held to lines, at which the quadratic differential has no poles: K_lower holds, but K need "
+            "not be near K*");
     if (result.termination == Termination::iteration_limit)
         result.warnings.push_back("stopped after " + std::to_string(result.iterations) +
                                   " iterations before k and φ settled");
