@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 
 #include <beltrami/conformal/domain_chart.h>
@@ -53,8 +54,14 @@ constexpr double kFinishingStep = 3e-4;
 constexpr int kFinishingSteps = 20;
 /// Mean |μ| from which on a chart is inaccurate.
 constexpr double kInaccurateChart = 0.03;
+/// Corners of a planar source that turn by more than this (radians) make its Riemann map inaccurate there; with so few
+/// of them poles in its own coordinates do better.
+constexpr double kSharp = 0.5;
+constexpr int kFewCorners = 12;
 /// By so much a corner's bound must exceed K.
 constexpr double kCornerMargin = 0.01;
+/// Edges between two corners that are taken at their word.
+constexpr int kResolvedEdges = 12;
 
 /// Prescribed vertices of @p map put in their places.
 void prescribe(Eigen::VectorXcd& map, const BoundaryCondition& boundary) {
@@ -140,21 +147,41 @@ struct ExtremalSolver::Implementation {
             warnings.push_back(std::to_string(prepared.split->split_edges) +
                                " edges between prescribed vertices were split; added vertices follow the source's");
         const bool inside = !boundary.lines.empty() || boundary.vertices.size() > boundary_vertex_count();
+        corners = find_corners(source, boundary);
         Chart chart = domain_chart(source, options.outer_loop, inside ? nullptr : &problem.solver());
-        if (!chart.exact && options.outer_loop == 0 && source.in_plane() && far_from_conformal(source, chart)) {
+        if (!chart.exact && options.outer_loop == 0 && source.in_plane() &&
+            (far_from_conformal(source, chart) || few_sharp_corners())) {
             const int factorizations = chart.factorizations;
             chart = plane_chart(source);
             chart.factorizations = factorizations;
         }
         other_factorizations += chart.factorizations;
         warnings.insert(warnings.end(), chart.warnings.begin(), chart.warnings.end());
-        corners = find_corners(source, boundary);
         Singularities singularities = singularities_of(source, chart, boundary, corners);
         const bool smooth = singularities.empty();
         problem.set_chart(std::move(chart), std::move(singularities), options.cluster_count);
         if (source.topology.boundary_loops.size() > 1)
             paths = loop_paths(source, problem.chart().vertices, options.outer_loop);
         choose_start(smooth);
+    }
+
+    /// Whether enough edges run from a corner to the next ones of its loop for its angles and speeds to mean something:
+    /// between teeth and in notches of a few edges they do not.
+    bool resolved(const BoundaryCorner& corner) const {
+        const int n = static_cast<int>(source.topology.boundary_loops[corner.loop].size());
+        for (const BoundaryCorner& other : corners) {
+            const int apart = std::abs(other.position - corner.position);
+            if (other.loop == corner.loop && apart > 0 && std::min(apart, n - apart) < kResolvedEdges) return false;
+        }
+        return true;
+    }
+
+    /// Whether the outer loop is a polygon of few corners.
+    bool few_sharp_corners() const {
+        int sharp = 0;
+        for (const BoundaryCorner& corner : corners)
+            if (corner.loop == options.outer_loop && std::abs(corner.source_angle - std::numbers::pi) > kSharp) ++sharp;
+        return sharp > 0 && sharp <= kFewCorners;
     }
 
     std::size_t boundary_vertex_count() const {
@@ -367,7 +394,8 @@ ExtremalMap ExtremalSolver::Implementation::record() const {
     result.factorizations += bounds.factorizations;
     result.corners = corners;
     for (const BoundaryCorner& corner : corners)
-        if (corner.safe_bound > 1 && (!result.sharpest || corner.safe_bound > result.sharpest->safe_bound))
+        if (corner.safe_bound > 1 && resolved(corner) &&
+            (!result.sharpest || corner.safe_bound > result.sharpest->safe_bound))
             result.sharpest = corner;
     if (result.sharpest) {
         result.bounds.push_back({"corner", result.sharpest->safe_bound, Bound::Of::extremal, false});
@@ -393,7 +421,8 @@ ExtremalMap ExtremalSolver::Implementation::record() const {
     if (result.termination == Termination::iteration_limit)
         result.warnings.push_back("stopped after " + std::to_string(result.iterations) +
                                   " iterations before k and φ settled");
-    if (result.k > 1e-3 && deviation(operators, result.distortion.mu, step.phi, result.k) > kRough * result.k)
+    if (result.k > 1e-3 && std::hypot(result.distortion.standard_deviation, result.distortion.mean - result.k) >
+                               kRough * result.k)
         result.warnings.push_back(
             "the map is far from constant dilatation: the mesh is too coarse for its shape, or the extremal map is not "
             "smooth; K is a rough estimate and K_lower may be far below K*");
