@@ -3,6 +3,7 @@
 #include <memory>
 
 #include <beltrami/conformal/chart.h>
+#include <beltrami/linear/dense.h>
 
 namespace beltrami {
 
@@ -44,7 +45,7 @@ class DifferentialSpace {
 
     /// Values of every basis function: #points × size().
     Eigen::MatrixXcd evaluate(const ChartPoints& points) const {
-        return transform() ? Eigen::MatrixXcd(generators(points) * *transform()) : generators(points);
+        return transform() ? complex_product(generators(points), *transform()) : generators(points);
     }
     /// T c: the coefficients of the generators.
     Eigen::VectorXcd of_generators(const Eigen::VectorXcd& coefficients) const {

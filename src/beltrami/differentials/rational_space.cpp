@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <beltrami/linear/dense.h>
 #include <beltrami/mesh/parallel.h>
 
 namespace beltrami {
@@ -74,8 +75,7 @@ void RationalSpace::add(std::vector<Generator> more) {
     }
     Eigen::Index size = old_size + added;
     for (int pass = 0; pass < 2; ++pass) {
-        const Eigen::MatrixXcd functions = values * transform.leftCols(size);
-        Eigen::MatrixXcd gram = functions.adjoint() * functions;
+        const Eigen::MatrixXcd gram = complex_gram_upper(complex_product(values, transform.leftCols(size)));
         // Columns of the inverse factor, one after another: r = gram(0..j, j) against those kept so far.
         Eigen::MatrixXcd kept(generators_count, size);
         Eigen::MatrixXcd inverse = Eigen::MatrixXcd::Zero(size, size);  // kept functions in terms of the given ones
@@ -85,7 +85,7 @@ void RationalSpace::add(std::vector<Generator> more) {
                 inverse(j, count++) = 1;
                 continue;
             }
-            const Eigen::VectorXcd along = inverse.leftCols(count).adjoint() * gram.col(j);
+            const Eigen::VectorXcd along = inverse.topLeftCorner(j, count).adjoint() * gram.col(j).head(j);
             const double square = gram(j, j).real() - along.squaredNorm();
             if (!(square > kDependent * kDependent * gram(j, j).real())) continue;
             inverse.col(count) = -(inverse.leftCols(count) * along);
@@ -111,10 +111,7 @@ Eigen::MatrixXcd RationalSpace::generators(const ChartPoints& points) const {
             for (std::size_t g = 0; g < generators_.size(); ++g) {
                 const Generator& f = generators_[g];
                 // Powers of one base follow each other, so each is one product.
-                const bool follows = g > 0 && generators_[g - 1].centre == f.centre &&
-                                     generators_[g - 1].scale == f.scale &&
-                                     std::abs(generators_[g - 1].power) == std::abs(f.power) - 1;
-                if (!follows) {
+                if (!follows(g)) {
                     if (f.power > 0)
                         base = f.scale * (z - f.centre).conjugate() / (z - f.centre).abs2();
                     else
@@ -137,12 +134,54 @@ Eigen::VectorXcd RationalSpace::combination(const ChartPoints& points, const Eig
     parallel_for(
         0, static_cast<int>(points.positions.size()),
         [&](int begin, int end) {
+            using Array = Eigen::ArrayXd;
             const int count = end - begin;
-            phi.segment(begin, count) =
-                generators({points.positions.segment(begin, count), points.derivatives.segment(begin, count)}) * c;
+            const Array x = points.positions.segment(begin, count).real(),
+                        y = points.positions.segment(begin, count).imag();
+            Array re = Array::Zero(count), im = Array::Zero(count);
+            Array base_re(count), base_im(count), power_re(count), power_im(count), size(count), next(count);
+            const auto times_base = [&] {
+                next = power_re * base_re - power_im * base_im;
+                power_im = power_re * base_im + power_im * base_re;
+                power_re = next;
+            };
+            for (std::size_t g = 0; g < generators_.size(); ++g) {
+                const Generator& f = generators_[g];
+                if (!follows(g)) {
+                    base_re = x - f.centre.real();
+                    base_im = y - f.centre.imag();
+                    if (f.power > 0) {
+                        size = f.scale / (base_re.square() + base_im.square());
+                        base_re *= size;
+                        base_im *= -size;
+                    } else {
+                        base_re /= f.scale;
+                        base_im /= f.scale;
+                    }
+                    power_re.setOnes();
+                    power_im.setZero();
+                    for (int i = 0; i < std::abs(f.power); ++i) times_base();
+                } else {
+                    times_base();
+                }
+                const Complex a = c[static_cast<Eigen::Index>(g)];
+                re += a.real() * power_re - a.imag() * power_im;
+                im += a.real() * power_im + a.imag() * power_re;
+            }
+            for (int i = 0; i < count; ++i) {
+                const Complex derivative = points.derivatives[begin + i];
+                phi[begin + i] = Complex(re[i], im[i]) * derivative * derivative;
+            }
         },
         kPointsPerChunk);
     return phi;
+}
+
+/// Whether a generator is the next power of the base of the one before.
+bool RationalSpace::follows(std::size_t g) const {
+    return g > 0 && generators_[g - 1].centre == generators_[g].centre &&
+           generators_[g - 1].scale == generators_[g].scale &&
+           std::abs(generators_[g - 1].power) == std::abs(generators_[g].power) - 1;
 }
 
 std::unique_ptr<DifferentialSpace> RationalSpace::refined() const {

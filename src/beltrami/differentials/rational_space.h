@@ -53,6 +53,7 @@ class RationalSpace final : public DifferentialSpace {
     explicit RationalSpace(std::shared_ptr<const Family> family) : family_(std::move(family)) {}
     /// Appends functions and orthonormalises them against those that are there.
     void add(std::vector<Generator> more);
+    bool follows(std::size_t generator) const;
     void add_corner_poles();
     /// Polynomials up to a degree, powers at the holes.
     void raise(int degree, int power);

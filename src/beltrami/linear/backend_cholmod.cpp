@@ -2,6 +2,7 @@
 
 #include <cholmod.h>
 #include <dlfcn.h>
+#include <complex>
 
 #include <memory>
 #include <mutex>
@@ -16,6 +17,13 @@
 
 extern "C" void dsyrk_(const char* uplo, const char* trans, const int* n, const int* k, const double* alpha,
                        const double* a, const int* lda, const double* beta, double* c, const int* ldc);
+extern "C" void zherk_(const char* uplo, const char* trans, const int* n, const int* k, const double* alpha,
+                       const std::complex<double>* a, const int* lda, const double* beta, std::complex<double>* c,
+                       const int* ldc);
+extern "C" void zgemm_(const char* transa, const char* transb, const int* m, const int* n, const int* k,
+                       const std::complex<double>* alpha, const std::complex<double>* a, const int* lda,
+                       const std::complex<double>* b, const int* ldb, const std::complex<double>* beta,
+                       std::complex<double>* c, const int* ldc);
 
 namespace beltrami {
 
@@ -30,6 +38,26 @@ Eigen::MatrixXd gram_lower(const Eigen::MatrixXd& A) {
     detail::use_one_blas_thread();
     const double one = 1, zero = 0;
     dsyrk_("L", "T", &n, &k, &one, A.data(), &k, &zero, result.data(), &n);
+    return result;
+}
+
+Eigen::MatrixXcd complex_product(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& B) {
+    const int m = static_cast<int>(A.rows()), n = static_cast<int>(B.cols()), k = static_cast<int>(A.cols());
+    Eigen::MatrixXcd result = Eigen::MatrixXcd::Zero(m, n);
+    if (m == 0 || n == 0 || k == 0) return result;
+    detail::use_one_blas_thread();
+    const std::complex<double> one = 1, zero = 0;
+    zgemm_("N", "N", &m, &n, &k, &one, A.data(), &m, B.data(), &k, &zero, result.data(), &m);
+    return result;
+}
+
+Eigen::MatrixXcd complex_gram_upper(const Eigen::MatrixXcd& A) {
+    const int n = static_cast<int>(A.cols()), k = static_cast<int>(A.rows());
+    Eigen::MatrixXcd result = Eigen::MatrixXcd::Zero(n, n);
+    if (n == 0 || k == 0) return result;
+    detail::use_one_blas_thread();
+    const double one = 1, zero = 0;
+    zherk_("U", "C", &n, &k, &one, A.data(), &k, &zero, result.data(), &n);
     return result;
 }
 

@@ -14,6 +14,16 @@ Eigen::MatrixXd gram_lower(const Eigen::MatrixXd& A) {
     return result;
 }
 
+Eigen::MatrixXcd complex_product(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& B) {
+    return A * B;
+}
+
+Eigen::MatrixXcd complex_gram_upper(const Eigen::MatrixXcd& A) {
+    Eigen::MatrixXcd result = Eigen::MatrixXcd::Zero(A.cols(), A.cols());
+    result.selfadjointView<Eigen::Upper>().rankUpdate(A.adjoint());
+    return result;
+}
+
 const char* linear_backend() {
     return "Eigen SimplicialLDLT";
 }

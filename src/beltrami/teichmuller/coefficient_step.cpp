@@ -1,5 +1,6 @@
 #include <beltrami/teichmuller/coefficient_step.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -105,7 +106,7 @@ CoefficientStep::Result CoefficientStep::solve(const Eigen::VectorXcd& mu, const
             problem_.rounding = rounding;
             at = solve_dual(problem_, at, {.step = kColdStep, .norm = &norm}).coefficients;
         }
-    problem_.rounding = kRounding * edge_;
+    problem_.rounding = std::max(least_rounding_, kRounding * edge_);
     const DualSolution dual = solve_dual(problem_, at, {.max_steps = newton_steps, .step = step, .norm = &norm});
 
     Result result;

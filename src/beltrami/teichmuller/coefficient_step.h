@@ -30,6 +30,10 @@ class CoefficientStep {
     /// Makes another space the current one; kept by reference until the next call.
     void set_space(const DifferentialSpace& space);
 
+    /// |φ| is rounded off below this part of its mean, and in any case where the samples do not resolve it. More makes
+    /// Newton's method quick, less makes φ exact.
+    void set_least_rounding(double part) { least_rounding_ = part; }
+
     /// φ of coefficients (#S).
     Eigen::VectorXcd values(const Eigen::VectorXcd& coefficients) const { return sampled_.combination(coefficients); }
 
@@ -45,6 +49,7 @@ class CoefficientStep {
     SampledSpace sampled_;
     SampleClusters clusters_;
     DualProblem problem_;
+    double least_rounding_ = 0;
     double edge_ = 0;  ///< of the mean sample in the canonical domain
 };
 

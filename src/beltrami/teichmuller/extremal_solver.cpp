@@ -47,9 +47,10 @@ constexpr double kUnevenAtSingularities = 0.02, kUneven = 0.1;
 /// steps.
 constexpr double kRoughTolerance = 0.03;
 constexpr int kRoughIterations = 16;
+constexpr double kRoughRounding = 0.005;
 /// Newton step, as part of the whole, to which the c-step is solved after the iteration.
-constexpr double kFinishingStep = 3e-3;
-constexpr int kFinishingSteps = 5;
+constexpr double kFinishingStep = 3e-4;
+constexpr int kFinishingSteps = 20;
 /// Mean |μ| from which on a chart is inaccurate.
 constexpr double kInaccurateChart = 0.03;
 /// By so much a corner's bound must exceed K.
@@ -275,8 +276,10 @@ ExtremalSolver::Update ExtremalSolver::update(const std::vector<Complex>& images
     if (images.size() != m.boundary.images.size())
         throw Error(Cause::bad_boundary, "there are " + std::to_string(images.size()) + " new images for " +
                                              std::to_string(m.boundary.images.size()) + " prescribed vertices");
-    m.boundary.images = images;
-    require_feasible(m.source, m.boundary, m.options.outer_loop);
+    BoundaryCondition moved = m.boundary;
+    moved.images = images;
+    require_feasible(m.source, moved, m.options.outer_loop);
+    m.boundary = std::move(moved);
     m.problem.map_step().prescribed = prescribed_values(m.boundary, m.source);
     HamiltonIteration::Options how = iteration_options(m.options);
     how.max_iterations = max_iterations;
@@ -300,7 +303,9 @@ ExtremalMap ExtremalSolver::solve() {
         rough.k_tolerance = std::max(rough.k_tolerance, kRoughTolerance * kRoughTolerance);
         rough.max_iterations = std::min(rough.max_iterations, kRoughIterations);
         rough.grow_last = false;
+        m.problem.coefficient_step().set_least_rounding(kRoughRounding);
         m.iterate(rough);
+        m.problem.coefficient_step().set_least_rounding(0);
         evened = m.converged && m.uneven() && m.even_out();
     }
     if (!evened) {

@@ -18,12 +18,15 @@ constexpr double kStepBelowChange = 0.01;
 /// Changes of φ below this that do not become smaller for some iterations, while k stays, come from zeros of φ.
 constexpr double kStalledBelow = 3e-4, kStalledChangeOfK = 1e-5;
 constexpr int kStalledFor = 4;
+/// φ changes by more than this while k changes by less than that, for so many steps, within so narrow a bracket of K.
+constexpr double kQuietAbove = 1e-3, kQuietChangeOfK = 2e-4, kQuietGap = 0.02;
+constexpr int kQuietFor = 6;
 /// Steps taken in a preliminary space.
 constexpr int kPreliminaryIterations = 2;
 /// Newton step, as part of the whole, to which the first c-step with poles at corners is solved.
 constexpr double kFirstStep = 0.15;
 /// Newton steps allowed in a c-step, few while φ still changes by more than this.
-constexpr int kNewtonCap = 8, kNewtonSteps = 50;
+constexpr int kNewtonCap = 40, kNewtonSteps = 40;
 constexpr double kNewtonCapAbove = 1e-3;
 /// A larger space has so many steps to settle, and may lower the bound by this part.
 constexpr int kGrownIterations = 15;
@@ -104,7 +107,7 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
 
     AndersonAcceleration anderson(options_.anderson_window);
     double change = 1, least_change = 1;
-    int since_least = 0;
+    int since_least = 0, quiet = 0;
     CoefficientStep::Result best;  // what is returned if nothing settles
     Eigen::VectorXcd best_map;
     CoefficientStep::Result fallback;  // what had settled in a smaller space
@@ -145,7 +148,12 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
             ++since_least;
         }
         const bool stalled = least_change < kStalledBelow && since_least >= kStalledFor && k_change < kStalledChangeOfK;
-        const bool settled = !state.space->preliminary() && step_.converged &&
+        // Where the data hardly tell two φ apart, φ wanders while k stays and the bound is as near as it will come.
+        const double gap = (1 + step_.k) / ((1 - step_.k) * step_.merit) - 1;
+        quiet = change > kQuietAbove && k_change < kQuietChangeOfK ? quiet + 1 : 0;
+        const bool undecided = quiet >= kQuietFor && gap < kQuietGap && !state.space->preliminary();
+        const bool settled =
+            undecided || !state.space->preliminary() && step_.converged &&
                              (stalled || (k_change < options_.k_tolerance &&
                                           (change < options_.tolerance || step_.k < options_.k_tolerance)));
         // Growing is decided where the map is exact to rounding, which must not turn the decision: at the start
@@ -160,7 +168,7 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
             if (grow(state, mu)) {
                 anderson.reset();
                 change = least_change = relaxation = 1;
-                since_least = 0;
+                since_least = quiet = 0;
                 state.direction = step_.direction;
                 state.k = std::min(step_.k, kLargest);
                 continue;

@@ -434,7 +434,8 @@ TEST(DomainChart, RealMeshes) {
             const Chart chart = domain_chart(source, outer);
             check_chart(source, chart, outer);
             EXPECT_EQ(chart.exact, exact);
-            EXPECT_EQ(chart.excluded_faces, 0);
+            EXPECT_TRUE(distortion(source.operators, chart.vertices).flipped.empty());
+            EXPECT_LT(chart.excluded_faces, 0.002 * source.mesh.face_count());  // |μ| ≥ ½
             EXPECT_LT(mean_mu(source, chart), mu);
             for (const Chart::Hole& hole : chart.holes)
                 EXPECT_LT(hole_centre(rim(source, chart, hole.loop)).ratio, 1.2);
