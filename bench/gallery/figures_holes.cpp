@@ -61,9 +61,10 @@ Figure figure_14(Output& output) {
     const Problem problem = named_problem("doughnut", 0.02);
     Comparison{output, figure, "figure_14", problem, problem.boundary}.run({"ARAP", "extremal", "not evened"});
     figure.remarks.push_back(
-        "Evening |μ| out costs smoothness here: the lines of the chessboard are jagged where the map is stretched "
-        "most, "
-        "while the map of the linear iteration is smooth and has less even |μ|; k and the bounds are the same.");
+        "On the left |φ| is small: what the map does there hardly enters k and the bounds, and φ is badly determined. "
+        "The "
+        "iteration leaves |μ| below k there (\"not evened\", a smooth map); evening out raises it to k, by wrinkles of "
+        "the size of a triangle that the chessboard shows.");
     return figure;
 }
 
