@@ -69,10 +69,9 @@ Figure figure_10(Output& output) {
     figure.tables.push_back(std::move(table));
     figure.pictures = {std::move(starts), std::move(maps)};
     figure.remarks.push_back(
-        "The starts give the same map as long as their noise is not too wild: with .05, where two faces of five are "
-        "turned over, the iteration does not settle within 60 solves, though its map is the right one; with .1, close "
-        "to "
-        "half of all faces, what comes out is no map. The harmonic start needs no option and is the best one.");
+        "The starts give the same map as long as their noise is not too wild; from .1, where close to half of all "
+        "faces "
+        "are turned over, what comes out is no map. The harmonic start needs no option and is the best one.");
     return figure;
 }
 
