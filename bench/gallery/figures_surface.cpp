@@ -69,8 +69,9 @@ Figure figure_10(Output& output) {
     figure.tables.push_back(std::move(table));
     figure.pictures = {std::move(starts), std::move(maps)};
     figure.remarks.push_back(
-        "Noise of .1, in which nearly half of all faces are turned over, is too much: what comes out is no map. The "
-        "harmonic start needs no option and is the best one.");
+        "The starts give the same map as long as their noise is not too wild; from .1, where close to half of all "
+        "faces "
+        "are turned over, what comes out is no map. The harmonic start needs no option and is the best one.");
     return figure;
 }
 
@@ -256,6 +257,10 @@ Figure figure_19(Output& output) {
                   "*The paper:* A ball with twelve pentagonal holes to a disk with round holes: the harmonic map has "
                   "more than 800 "
                   "flipped triangles, ARAP more than 600, the extremal map none."};
+    figure.remarks.push_back(
+        "The paper does not give its circles; ours are three rings of one, five and five. The bracket of K* is the "
+        "widest "
+        "of the page: φ has a corner of the source at every corner of the pentagons.");
     const Problem problem = named_problem("pierced_ball", 0.035);
     Comparison{output, figure, "figure_19", problem, problem.boundary, 30, 20, 24}.run(
         {"harmonic", "ARAP", "extremal"});

@@ -53,7 +53,8 @@ struct Solved {
     explicit operator bool() const { return map.size() > 0; }
 };
 
-/// Solves with "harmonic", "ARAP", "MIPS", "least maximum" or "extremal"; an Error becomes a refusal, so that a figure
+/// Solves with "harmonic", "ARAP", "MIPS", "least maximum", "extremal" or "not evened" (the extremal map as the
+/// iteration leaves it); an Error becomes a refusal, so that a figure
 /// shows what is possible today.
 /// @param options of extremal and least maximum; without a wish for `sharpen` bounds are those of quadratic maps
 Solved solve(const Surface& surface, const BoundaryCondition& boundary, const std::string& method,

@@ -36,7 +36,9 @@ Solved solve(const Surface& surface, const BoundaryCondition& boundary, const st
             result.map = std::move(found.map);
             result.iterations = found.iterations;
         };
-        if (method == "extremal") {
+        if (method == "extremal" || method == "not evened") {
+            if (method == "not evened") options.evening = ExtremalOptions::Evening::never;
+
             result.all = extremal_map(surface, boundary, options);
             const ExtremalMap& found = *result.all;
             result.map = found.map;
