@@ -96,7 +96,10 @@ MethodResult run_least_maximum(const Surface& source, const BoundaryCondition& b
     record.map = map_record(result);
     record.least_maximum = {how.power, result.start_max, result.distortion.max};
     if (result.extremal) {
-        record_findings(*result.extremal, source, record);
+        ExtremalMap start_map = *result.extremal;
+        start_map.homotopy = result.homotopy;
+        start_map.warnings.clear();  // they speak of the start
+        record_findings(start_map, source, record);
     } else if (result.split) {
         record.split = split_record(*result.split, source.mesh.vertex_count());
     }

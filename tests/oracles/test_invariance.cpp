@@ -94,14 +94,16 @@ TEST_P(Invariances, SameBytesOnAnyNumberOfThreads) {
     set_thread_count(before);
 }
 
+// Equal corners come in the order of the boundary, which begins at its smallest vertex: which of two nearly dependent
+// poles is left out depends on the numbering, and k by 2e-6.
 // Measured, of rounding: 6e-10; with corners and a hole 4e-6, where growing the space once more is worth just about
 // options.growth = 1e-5 of k. Of numbering: 4e-5 there, for the mesh that fills the hole for the chart begins at the
 // loop's first vertex.
 INSTANTIATE_TEST_SUITE_P(
     Kinds, Invariances,
     testing::Values(Kind{"disk", false, false, false, 1e-8, 1e-8}, Kind{"pin", false, false, true, 1e-8, 1e-8},
-                    Kind{"corners", true, false, false, 1e-8, 1e-8},
-                    Kind{"corners_and_pin", true, false, true, 1e-8, 1e-8},
+                    Kind{"corners", true, false, false, 1e-8, 5e-6},
+                    Kind{"corners_and_pin", true, false, true, 1e-8, 5e-6},
                     Kind{"hole", false, true, false, 1e-8, 1e-8}, Kind{"hole_and_pin", false, true, true, 1e-8, 1e-8},
                     Kind{"corners_and_hole", true, true, false, 5e-6, 1e-4}, Kind{"all", true, true, true, 5e-6, 1e-4}),
     [](const auto& parameter) { return parameter.param.name; });

@@ -136,7 +136,7 @@ MapRecord map_record(const ExtremalMap& result) {
     MapRecord record = map_record(result.distortion);
     record.k = result.k;
     record.K = result.K;
-    if (result.distortion.flipped.empty()) record.K_lower = result.K_lower;
+    if (result.distortion.flipped.empty() || result.K_lower > 1) record.K_lower = result.K_lower;
     record.bounds = result.bounds;
     record.boundary_residual = result.boundary_residual;
     return record;
@@ -148,7 +148,8 @@ MapRecord map_record(const LeastMaximumMap& result) {
         // k, K and the attained value are those of another map; what is below K* is below every map's K.
         for (const Bound& bound : result.extremal->bounds)
             if (bound.kind != "attained" && !bound.kind.ends_with("_estimate")) record.bounds.push_back(bound);
-        if (result.extremal->distortion.flipped.empty()) record.K_lower = result.extremal->K_lower;
+        if (result.extremal->distortion.flipped.empty() || result.extremal->K_lower > 1)
+            record.K_lower = result.extremal->K_lower;
         record.boundary_residual = result.extremal->boundary_residual;
     }
     if (record.K_max && std::isfinite(*record.K_max))

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 #include <string>
 
 #include <beltrami/mesh/error.h>
@@ -14,8 +15,11 @@ namespace {
 /// The space may grow on a finer mesh while that raises k by more than this part of the wanted gap.
 constexpr double kGrowthOfGap = 1e-3;
 
-double gap_of(double K, double K_lower) {
-    return K / K_lower - 1;
+/// Infinite without a Reich-Strebel bound.
+double gap_of(const ExtremalMap& map) {
+    const bool bounded = std::any_of(map.bounds.begin(), map.bounds.end(),
+                                     [](const Bound& bound) { return bound.kind == "reich_strebel"; });
+    return bounded ? map.K / map.K_lower - 1 : std::numeric_limits<double>::infinity();
 }
 
 /// The best bounds of all meshes, with the estimate of the mesh that has the largest.
@@ -32,6 +36,7 @@ void take_over(ExtremalMap& result, const ExtremalMap& finer) {
         const auto a = best_of(result, rigorous), b = best_of(finer, rigorous);
         bounds[rigorous] = !b || (a && a->K >= b->K) ? a : b;
     }
+    if (!bounds[0]) return;
     std::vector<Bound> kept;
     if (bounds[0]) kept.push_back(*bounds[0]);
     if (bounds[1] && !bounds[0]->rigorous) kept.push_back(*bounds[1]);
@@ -53,7 +58,12 @@ std::string percent(double gap) {
 }
 
 /// Why no refinement can help, or nothing.
-std::string obstacle(const ExtremalMap& map) {
+/// @param turns wanted, or empty
+std::string obstacle(const ExtremalMap& map, const std::vector<int>& turns) {
+    for (const HoleTurns& hole : map.homotopy.holes)
+        if (!turns.empty() && hole.turns != turns[hole.loop])
+            return "the map has " + std::to_string(hole.turns) + " turns against loop " + std::to_string(hole.loop) +
+                   " instead of " + std::to_string(turns[hole.loop]) + ": what is known belongs to another class";
     if (map.termination == Termination::not_teichmuller)
         return "at vertex " + std::to_string(map.sharpest->vertex) + " the boundary values alone force K ≥ " +
                std::to_string(map.sharpest->safe_bound) +
@@ -80,7 +90,7 @@ Certification certify(const Surface& source, const BoundaryCondition& boundary, 
     own.sharpen = std::max(0, options.sharpen.value_or(0));
     Certification done;
     done.result = extremal_map(source, boundary, own);
-    done.gap = gap_of(done.result.K, done.result.K_lower);
+    done.gap = gap_of(done.result);
 
     std::optional<RefinedProblem> level;
     Eigen::VectorXcd last = done.result.map.head(source.mesh.vertex_count());
@@ -88,13 +98,14 @@ Certification certify(const Surface& source, const BoundaryCondition& boundary, 
     own.sharpen = 0;
     own.growth = std::min(options.growth, kGrowthOfGap * gap);
     while (true) {
+        done.reason = obstacle(done.result, options.turns);
+        if (!done.reason.empty() && !(done.gap <= gap && done.result.termination == Termination::not_teichmuller))
+            return done;
         if (done.gap <= gap) {
             done.reached = true;
             done.reason = "the gap is " + percent(done.gap);
             return done;
         }
-        done.reason = obstacle(done.result);
-        if (!done.reason.empty()) return done;
         const Surface& surface = level ? level->surface : source;
         if (done.refinements >= limits.most_refinements) {
             done.reason = "the gap is " + percent(done.gap) + " after " + std::to_string(done.refinements) +
@@ -120,9 +131,13 @@ Certification certify(const Surface& source, const BoundaryCondition& boundary, 
             return done;
         }
         ++done.refinements;
+        if (!done.result.homotopy.holes.empty() && !finer.homotopy.same_turns(done.result.homotopy)) {
+            done.reason = "the gap is " + percent(before) + "; the map of the finer mesh is of another class";
+            return done;
+        }
         last = finer.map.head(level->surface.mesh.vertex_count());
         take_over(done.result, finer);
-        done.gap = gap_of(done.result.K, done.result.K_lower);
+        done.gap = gap_of(done.result);
         if (done.gap <= gap) continue;
         if (!(done.gap < (1 - limits.least_progress) * before)) {
             done.reason = "the gap is " + percent(done.gap) + " and a refinement did not lower it noticeably";

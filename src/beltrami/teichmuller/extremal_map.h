@@ -17,7 +17,9 @@
 namespace beltrami {
 
 struct ExtremalOptions {
-    double tolerance = 1e-8;   ///< stop when |Δk| and the change of the direction of φ are below this
+    /// Stop when |Δk| and the change of the direction of φ are below this. Where φ is singular (corners, pins) and the
+    /// map is to be evened out, which moves φ further, 0.03 and its square will do.
+    double tolerance = 1e-8;
     int max_iterations = 60;   ///< linear solves
     double growth = 1e-5;      ///< the space of differentials grows while that raises k by more than this part
     int anderson_window = 5;   ///< 0: plain iteration

@@ -80,6 +80,12 @@ Prepared prepare(const Surface& source, const BoundaryCondition& boundary, const
     validate(boundary, source);
     require_whole_boundary(boundary, source);
     require_feasible(source, boundary, options.outer_loop);
+    const std::size_t loops = source.topology.boundary_loops.size();
+    if (!options.turns.empty() && options.turns.size() != loops)
+        throw Error(Cause::bad_option,
+                    "turns are given for " + std::to_string(options.turns.size()) +
+                        " boundary loops, the surface has " + std::to_string(loops),
+                    "give one number per loop, 0 for the outer one");
     Prepared result;
     if (!options.split_prescribed) return result;
     SplitProblem split = split_prescribed(source, boundary);
@@ -300,6 +306,7 @@ ExtremalSolver::ExtremalSolver(ExtremalSolver&&) noexcept = default;
 
 ExtremalSolver::Update ExtremalSolver::update(const std::vector<Complex>& images, int max_iterations) {
     Implementation& m = *implementation_;
+    if (max_iterations < 1) throw Error(Cause::bad_option, "an update needs at least one iteration");
     if (images.size() != m.boundary.images.size())
         throw Error(Cause::bad_boundary, "there are " + std::to_string(images.size()) + " new images for " +
                                              std::to_string(m.boundary.images.size()) + " prescribed vertices");
@@ -421,8 +428,8 @@ ExtremalMap ExtremalSolver::Implementation::record() const {
     if (result.termination == Termination::iteration_limit)
         result.warnings.push_back("stopped after " + std::to_string(result.iterations) +
                                   " iterations before k and φ settled");
-    if (result.k > 1e-3 && std::hypot(result.distortion.standard_deviation, result.distortion.mean - result.k) >
-                               kRough * result.k)
+    if (result.k > 1e-3 &&
+        std::hypot(result.distortion.standard_deviation, result.distortion.mean - result.k) > kRough * result.k)
         result.warnings.push_back(
             "the map is far from constant dilatation: the mesh is too coarse for its shape, or the extremal map is not "
             "smooth; K is a rough estimate and K_lower may be far below K*");

@@ -19,6 +19,7 @@ class ExtremalSolver {
     /// @param source  kept by reference
     /// @throw Error as extremal_map
     ExtremalSolver(const Surface& source, const BoundaryCondition& boundary, const ExtremalOptions& options = {});
+    ExtremalSolver(Surface&&, const BoundaryCondition&, const ExtremalOptions& = {}) = delete;
     ~ExtremalSolver();
     ExtremalSolver(ExtremalSolver&&) noexcept;
 
@@ -32,8 +33,9 @@ class ExtremalSolver {
     };
 
     /// Moves the prescribed vertices and iterates a few times from where the solver stands.
+    /// Edges that the first images nailed down have been split; others are not looked for.
     /// @param images         beside the vertices of the boundary condition
-    /// @param max_iterations linear solves allowed
+    /// @param max_iterations linear solves allowed, at least 1
     Update update(const std::vector<Complex>& images, int max_iterations = 4);
 
     /// Iterates until all has settled, finishes and measures. The record is that of extremal_map.

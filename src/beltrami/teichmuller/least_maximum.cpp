@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <beltrami/conformal/domain_chart.h>
 #include <beltrami/maps/beltrami_solver.h>
 #include <beltrami/maps/boundary_feasibility.h>
 #include <beltrami/mesh/error.h>
@@ -92,6 +93,25 @@ LeastMaximumMap least_maximum_map(const Surface& source, const BoundaryCondition
         result.map = start;
         result.distortion = distortion(surface.operators, result.map);
         result.fold_free = true;
+    }
+    if (result.extremal) {
+        // Raising p from a folded start can carry a map into another class.
+        const HomotopyClass& started = result.extremal->homotopy;
+        if (!started.holes.empty()) {
+            result.homotopy = homotopy_class(surface, domain_chart(surface, started.outer_loop).vertices, result.map,
+                                             started.outer_loop);
+            for (std::size_t i = 0; i < started.holes.size(); ++i) {
+                const HoleTurns& hole = result.homotopy.holes[i];
+                const int wanted =
+                    options.extremal.turns.empty() ? started.holes[i].turns : options.extremal.turns[hole.loop];
+                if (hole.turns != wanted)
+                    throw Error(Cause::not_solved,
+                                "the map of least maximum has " + std::to_string(hole.turns) + " turns against loop " +
+                                    std::to_string(hole.loop) + " instead of " + std::to_string(wanted) +
+                                    ": the start was folded too much to keep its class",
+                                "refine the mesh, or leave out --minimize max");
+            }
+        }
     }
     if (!result.fold_free)
         result.warnings.push_back(found.status == FoldFreeStatus::impossible

@@ -35,6 +35,7 @@ struct LeastMaximumMap {
     /// The start, where the whole boundary is prescribed. Its bounds on K* hold for this map's class too.
     std::optional<ExtremalMap> extremal;
     std::optional<SplitProblem> split;  ///< the mesh that was mapped, if it is not the source itself
+    HomotopyClass homotopy;             ///< of map, with holes whose loops are all prescribed
     std::vector<std::string> warnings;
 };
 

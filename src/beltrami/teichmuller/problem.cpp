@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include <beltrami/differentials/polynomial_space.h>
 #include <beltrami/differentials/rational_space.h>
@@ -89,10 +90,20 @@ Singularities singularities_of(const Surface& source, const Chart& chart, const 
     }
     for (const int v : boundary.vertices)
         if (!source.topology.on_boundary[v]) result.pins.push_back(chart.vertices[v]);
+    // Equal corners (those of a square) in the order of the boundary, whatever rounding makes of their significance.
+    std::vector<BoundaryCorner> ordered = corners;
+    const auto rank = [](const BoundaryCorner& c) {
+        return std::tuple(-std::round(1e6 * c.significance), c.loop, c.position);
+    };
+    std::sort(ordered.begin(), ordered.end(),
+              [&](const BoundaryCorner& a, const BoundaryCorner& b) { return rank(a) < rank(b); });
     const ChartDomain domain(source, chart);
     const int budget = source.operators.sample_count() / (kSamplesPerFunction * RationalSpace::corner_poles);
-    for (const BoundaryCorner& corner : corners) {
-        if (static_cast<int>(result.corners.size()) >= budget) break;
+    double least = 0;
+    for (const BoundaryCorner& corner : ordered) {
+        // Near equals come all or not at all: their significance depends a little on which of them was found first.
+        if (static_cast<int>(result.corners.size()) >= budget && corner.significance < 0.9 * least) break;
+        least = corner.significance;
         const auto& loop = source.topology.boundary_loops[corner.loop];
         const auto n = static_cast<int>(loop.size());
         const auto at = [&](int position) { return chart.vertices[loop[((position % n) + n) % n]]; };

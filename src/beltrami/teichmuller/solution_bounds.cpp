@@ -70,8 +70,12 @@ SolutionBounds solution_bounds(const Solution& s, std::optional<int> subdivision
         estimate = own.estimate;
     }
     if (sharpened) {
-        if (sharp.lower > lower) lower = sharp.lower, rigorous = sharp.rigorous && same.known;
-        estimate = sharp.integrals.estimate;
+        // Bound and estimate belong together: those of the map that does better.
+        if (sharp.lower > lower || !own.valid) {
+            lower = std::max(lower, sharp.lower);
+            rigorous = sharp.rigorous && same.known;
+            estimate = sharp.integrals.estimate;
+        }
     }
     if (own.valid || sharpened) {
         result.bounds.push_back({"reich_strebel", lower, Bound::Of::extremal, rigorous});
