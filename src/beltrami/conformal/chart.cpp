@@ -60,7 +60,8 @@ Chart make_chart(const Surface& source, Eigen::VectorXcd vertices, bool exact) {
         }
     }
     if (chart.excluded_faces)
-        chart.warnings.push_back("the conformal chart is far from conformal at " + std::to_string(chart.excluded_faces) +
+        chart.warnings.push_back("the conformal chart is far from conformal at " +
+                                 std::to_string(chart.excluded_faces) +
                                  " faces; they are left out when the quadratic differential is determined");
     return chart;
 }

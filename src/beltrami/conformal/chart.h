@@ -15,7 +15,7 @@ struct Chart {
     Eigen::VectorXcd vertices;     ///< #V positions in the canonical domain
     Eigen::VectorXcd positions;    ///< #S the samples' positions
     Eigen::VectorXcd derivatives;  ///< #S ∂ of the chart in the samples' frames
-    std::vector<char> excluded;    ///< #S 1 where the chart has |μ| ≥ ½ or turns the sample over: ψ means nothing there
+    std::vector<char> excluded;  ///< #S 1 where the chart has |μ| ≥ ½ or turns the sample over: ψ means nothing there
     int excluded_faces = 0;
     /// The chart is holomorphic on the plane of the mesh (a similarity, or analytic below), so that pulled-back ψ are
     /// truly holomorphic.
