@@ -153,9 +153,9 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
         quiet = change > kQuietAbove && k_change < kQuietChangeOfK ? quiet + 1 : 0;
         const bool undecided = quiet >= kQuietFor && gap < kQuietGap && !state.space->preliminary();
         const bool settled =
-            undecided || !state.space->preliminary() && step_.converged &&
-                             (stalled || (k_change < options_.k_tolerance &&
-                                          (change < options_.tolerance || step_.k < options_.k_tolerance)));
+            undecided || (!state.space->preliminary() && step_.converged &&
+                          (stalled || (k_change < options_.k_tolerance &&
+                                       (change < options_.tolerance || step_.k < options_.k_tolerance))));
         // Growing is decided where the map is exact to rounding, which must not turn the decision: at the start
         // (above), at the first map that comes from another mesh's φ, and in the end.
         if ((from_elsewhere && options_.grow_first && iterations_ == 1) || (settled && options_.grow_last) ||
