@@ -26,7 +26,7 @@ const std::map<std::string, Baseline>& baselines() {
 
 std::optional<Surface> split_surface(const std::optional<SplitProblem>& split) {
     if (!split) return {};
-    return split->metric ? Surface(split->mesh, *split->metric) : Surface(split->mesh);
+    return surface_of(split->mesh, split->metric);
 }
 
 void append(std::vector<std::string>& warnings, const std::vector<std::string>& more) {

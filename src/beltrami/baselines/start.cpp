@@ -19,12 +19,7 @@ namespace detail {
 
 void check_baseline(const Surface& source, const BoundaryCondition& boundary, const BaselineOptions& options) {
     options.validate();
-    if (source.topology.components != 1)
-        throw Error(Cause::bad_mesh, "the mesh has " + std::to_string(source.topology.components) + " components",
-                    "keep one of them, or map each by itself");
-    if (source.topology.boundary_loops.empty())
-        throw Error(Cause::bad_mesh, "the mesh is a closed surface, which has no map to the plane without folds",
-                    "cut it open first");
+    require_open_component(source);
     validate(boundary, source);
     if (!boundary.lines.empty())
         throw Error(Cause::bad_boundary,

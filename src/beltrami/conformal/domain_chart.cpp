@@ -103,8 +103,7 @@ Chart exact_chart(const Surface& source, int outer_loop, const CircleFit& circle
 /// The round disk's chart of the filled surface, on all its vertices.
 Chart filled_chart(const Surface& source, int outer_loop, const RoundDiskOptions& options) {
     FilledSurface filled = fill_holes(source, outer_loop);
-    if (filled.metric) return round_disk_chart(Surface(std::move(filled.mesh), std::move(*filled.metric)), options);
-    return round_disk_chart(Surface(std::move(filled.mesh)), options);
+    return round_disk_chart(surface_of(std::move(filled.mesh), std::move(filled.metric)), options);
 }
 
 int loop_size(const Surface& source, int loop) {
@@ -125,10 +124,7 @@ Chart annulus_chart(const Surface& source, int outer_loop, int hole) {
     std::optional<Surface> filled;
     if (source.topology.boundary_loops.size() > 2) {
         FilledSurface fill = fill_holes(source, std::vector<int>{outer_loop, hole});
-        if (fill.metric)
-            filled.emplace(std::move(fill.mesh), std::move(*fill.metric));
-        else
-            filled.emplace(std::move(fill.mesh));
+        filled.emplace(surface_of(std::move(fill.mesh), std::move(fill.metric)));
     }
     const Surface& annulus = filled ? *filled : source;
     Chart chart;

@@ -194,4 +194,13 @@ BoundaryCorner measure_boundary_point(const Surface& source, const BoundaryCondi
     return corner;
 }
 
+int edges_to_next_corner(const BoundaryCorner& corner, const std::vector<BoundaryCorner>& corners, int loop_size) {
+    int edges = loop_size / 2;
+    for (const BoundaryCorner& other : corners) {
+        const int apart = std::abs(other.position - corner.position);
+        if (other.loop == corner.loop && apart > 0) edges = std::min({edges, apart, loop_size - apart});
+    }
+    return edges;
+}
+
 }  // namespace beltrami

@@ -57,6 +57,10 @@ double corner_bound(double source_angle, double image_angle, double speed_out, d
 std::vector<BoundaryCorner> find_corners(const Surface& source, const BoundaryCondition& boundary,
                                          const CornerOptions& options = {});
 
+/// Edges from a corner to the nearest other one of its loop, at most half the loop.
+/// @param loop_size vertices of the loop
+int edges_to_next_corner(const BoundaryCorner& corner, const std::vector<BoundaryCorner>& corners, int loop_size);
+
 /// The same fit at one vertex with nothing else taken for a corner, significant or not.
 /// @throw Error bad_option if there is no such loop or position
 BoundaryCorner measure_boundary_point(const Surface& source, const BoundaryCondition& boundary, int loop, int position,

@@ -119,4 +119,17 @@ SubdividedMesh midpoint_subdivide(const Mesh& mesh) {
     return result;
 }
 
+Eigen::VectorXcd with_parents_means(const Eigen::VectorXcd& values, std::span<const std::array<int, 4>> parents) {
+    Eigen::VectorXcd result(values.size() + static_cast<Eigen::Index>(parents.size()));
+    result.head(values.size()) = values;
+    for (std::size_t i = 0; i < parents.size(); ++i) {
+        Complex sum = 0;
+        int count = 0;
+        for (const int parent : parents[i])
+            if (parent >= 0) sum += values[parent], ++count;
+        result[values.size() + static_cast<Eigen::Index>(i)] = sum / static_cast<double>(count);
+    }
+    return result;
+}
+
 }  // namespace beltrami

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include <beltrami/mesh/mesh.h>
@@ -20,5 +21,8 @@ struct SubdividedMesh {
 /// topology's edges, then quad centres in face order. Texture coordinates are split along.
 /// @throw Error bad_mesh if a face names a vertex that does not exist or has neither 3 nor 4 corners
 SubdividedMesh midpoint_subdivide(const Mesh& mesh);
+
+/// Values at the old vertices (#V_old), followed by those of the new ones: the means over their parents.
+Eigen::VectorXcd with_parents_means(const Eigen::VectorXcd& values, std::span<const std::array<int, 4>> parents);
 
 }  // namespace beltrami

@@ -47,6 +47,10 @@ Surface::Surface(Mesh m, Positions corners)
       operators(operators_from_corners(mesh, *metric)),
       boundary_edge_lengths(lengths_of_loops(*this)) {}
 
+Surface surface_of(Mesh mesh, std::optional<Positions> metric) {
+    return metric ? Surface(std::move(mesh), std::move(*metric)) : Surface(std::move(mesh));
+}
+
 void require_disk(const Surface& surface) {
     const Topology& topology = surface.topology;
     if (topology.components == 1 && topology.boundary_loops.size() == 1 && topology.genus == 0) return;
@@ -54,6 +58,15 @@ void require_disk(const Surface& surface) {
                 "the surface is not a disk: components " + std::to_string(topology.components) + ", boundary loops " +
                     std::to_string(topology.boundary_loops.size()) + ", genus " + std::to_string(topology.genus),
                 "cut or fill it until one component with one boundary loop is left");
+}
+
+void require_open_component(const Surface& surface) {
+    if (surface.topology.components != 1)
+        throw Error(Cause::bad_mesh, "the mesh has " + std::to_string(surface.topology.components) + " components",
+                    "keep one of them, or map each by itself");
+    if (surface.topology.boundary_loops.empty())
+        throw Error(Cause::bad_mesh, "the mesh is a closed surface, which has no map to the plane without folds",
+                    "cut it open first");
 }
 
 void require_genus_zero(const Surface& surface) {

@@ -30,8 +30,15 @@ struct Surface {
     bool in_plane() const { return !metric && is_planar(mesh); }
 };
 
+/// The surface with the metric, or with that of the mesh itself.
+/// @throw Error bad_mesh
+Surface surface_of(Mesh mesh, std::optional<Positions> metric);
+
 /// @throw Error bad_mesh unless the surface is a disk: one component, one boundary loop, genus 0
 void require_disk(const Surface& surface);
+
+/// @throw Error bad_mesh unless the surface has one component and a boundary, whatever its genus
+void require_open_component(const Surface& surface);
 
 /// @throw Error bad_mesh unless the surface has one component, genus 0 and a boundary
 void require_genus_zero(const Surface& surface);

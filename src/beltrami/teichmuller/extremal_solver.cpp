@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 
+#include <beltrami/conformal/circle_fit.h>
 #include <beltrami/conformal/domain_chart.h>
 #include <beltrami/differentials/polynomial_space.h>
 #include <beltrami/maps/boundary_feasibility.h>
@@ -14,6 +15,7 @@
 #include <beltrami/maps/twist.h>
 #include <beltrami/mesh/error.h>
 #include <beltrami/mesh/planar.h>
+#include <beltrami/mesh/subdivide.h>
 #include <beltrami/teichmuller/coarse_start.h>
 #include <beltrami/teichmuller/problem.h>
 #include <beltrami/teichmuller/solution_bounds.h>
@@ -63,6 +65,12 @@ constexpr double kCornerMargin = 0.01;
 /// Edges between two corners that are taken at their word.
 constexpr int kResolvedEdges = 12;
 
+/// Samples that a map turns over or collapses.
+int folded_samples(const Eigen::VectorXcd& mu) {
+    return static_cast<int>(
+        std::count_if(mu.begin(), mu.end(), [](Complex value) { return !(std::norm(value) < 1); }));
+}
+
 /// Prescribed vertices of @p map put in their places.
 void prescribe(Eigen::VectorXcd& map, const BoundaryCondition& boundary) {
     for (std::size_t i = 0; i < boundary.vertices.size(); ++i) map[boundary.vertices[i]] = boundary.images[i];
@@ -90,9 +98,17 @@ Prepared prepare(const Surface& source, const BoundaryCondition& boundary, const
     if (!options.split_prescribed) return result;
     SplitProblem split = split_prescribed(source, boundary);
     if (split.split_edges == 0) return result;
-    result.surface = split.metric ? Surface(split.mesh, *split.metric) : Surface(split.mesh);
+    result.surface = surface_of(split.mesh, split.metric);
     result.split = std::move(split);
     return result;
+}
+
+/// Whether the outer loop of a planar source lies on a circle.
+bool outer_loop_is_round(const Surface& source) {
+    const Eigen::VectorXcd z = planar_coordinates(source.mesh);
+    std::vector<Complex> outline;
+    for (const int v : source.topology.boundary_loops[0]) outline.push_back(z[v]);
+    return fit_circle(outline).exact();
 }
 
 /// Whether a chart is so inaccurate that a plane source is better described by its own coordinates.
@@ -103,21 +119,6 @@ bool far_from_conformal(const Surface& source, const Chart& chart) {
         sum += source.operators.weights[s] * std::abs(dzbar) / std::abs(dz);
     }
     return sum > kInaccurateChart * source.operators.area();
-}
-
-/// A start given on the old mesh, on the split one.
-Eigen::VectorXcd on_split_mesh(const Eigen::VectorXcd& start, const std::optional<SplitProblem>& split) {
-    if (!split) return start;
-    Eigen::VectorXcd result(split->mesh.vertex_count());
-    result.head(start.size()) = start;
-    for (std::size_t i = 0; i < split->parents.size(); ++i) {
-        Complex sum = 0;
-        int count = 0;
-        for (const int parent : split->parents[i])
-            if (parent >= 0) sum += start[parent], ++count;
-        result[start.size() + static_cast<Eigen::Index>(i)] = sum / static_cast<double>(count);
-    }
-    return result;
 }
 
 }  // namespace
@@ -152,15 +153,8 @@ struct ExtremalSolver::Implementation {
         if (prepared.split)
             warnings.push_back(std::to_string(prepared.split->split_edges) +
                                " edges between prescribed vertices were split; added vertices follow the source's");
-        const bool inside = !boundary.lines.empty() || boundary.vertices.size() > boundary_vertex_count();
         corners = find_corners(source, boundary);
-        Chart chart = domain_chart(source, options.outer_loop, inside ? nullptr : &problem.solver());
-        if (!chart.exact && options.outer_loop == 0 && source.in_plane() &&
-            (far_from_conformal(source, chart) || few_sharp_corners())) {
-            const int factorizations = chart.factorizations;
-            chart = plane_chart(source);
-            chart.factorizations = factorizations;
-        }
+        Chart chart = best_chart();
         other_factorizations += chart.factorizations;
         warnings.insert(warnings.end(), chart.warnings.begin(), chart.warnings.end());
         Singularities singularities = singularities_of(source, chart, boundary, corners);
@@ -190,6 +184,18 @@ struct ExtremalSolver::Implementation {
         return sharp > 0 && sharp <= kFewCorners;
     }
 
+    Chart best_chart() const {
+        const bool own_coordinates = options.outer_loop == 0 && source.in_plane();
+        if (own_coordinates && few_sharp_corners() && !outer_loop_is_round(source)) return plane_chart(source);
+        const bool inside = !boundary.lines.empty() || boundary.vertices.size() > boundary_vertex_count();
+        Chart chart = domain_chart(source, options.outer_loop, inside ? nullptr : &problem.solver());
+        if (chart.exact || !own_coordinates || !far_from_conformal(source, chart)) return chart;
+        const int factorizations = chart.factorizations;
+        chart = plane_chart(source);
+        chart.factorizations = factorizations;
+        return chart;
+    }
+
     std::size_t boundary_vertex_count() const {
         std::size_t count = 0;
         for (const auto& loop : source.topology.boundary_loops) count += loop.size();
@@ -203,7 +209,7 @@ struct ExtremalSolver::Implementation {
                 throw Error(Cause::bad_option, "the start has " + std::to_string(options.start->size()) +
                                                    " values for " +
                                                    std::to_string(source.mesh.vertex_count() - added()) + " vertices");
-            map = on_split_mesh(*options.start, prepared.split);
+            map = prepared.split ? with_parents_means(*options.start, prepared.split->parents) : *options.start;
             prescribe(map, boundary);
         } else if (options.waypoints) {
             const Eigen::VectorXcd places = source.in_plane() && options.outer_loop == 0
@@ -223,8 +229,11 @@ struct ExtremalSolver::Implementation {
     void iterate(HamiltonIteration::Options how) {
         how.near_last_factor = state.space && problem.solver().factorization_count() > 1;
         HamiltonIteration iteration(source, problem.map_step(), problem.coefficient_step(), how);
+        // Only a run from nothing needs a space to begin with, and its basis is costly.
         iteration.run(state, map,
-                      problem.starting_space(PolynomialSpace::largest_degree(source.operators.sample_count())));
+                      state.space ? nullptr
+                                  : problem.starting_space(
+                                        PolynomialSpace::largest_degree(source.operators.sample_count())));
         map = iteration.map();
         step = iteration.last_step();
         converged = iteration.converged();
@@ -233,15 +242,14 @@ struct ExtremalSolver::Implementation {
         history.insert(history.end(), steps.begin() + (history.empty() ? 0 : 1), steps.end());
     }
 
-    bool folded() const {
-        const Eigen::VectorXcd mu = beltrami_coefficient(source.operators, map);
-        return std::any_of(mu.begin(), mu.end(), [](Complex value) { return !(std::norm(value) < 1); });
-    }
+    bool folded() const { return folded_samples(beltrami_coefficient(source.operators, map)) > 0; }
 
     /// Whether the map is far from |μ| = k, or folded.
     bool uneven() const {
-        return folded() || deviation(source.operators, beltrami_coefficient(source.operators, map), step.phi, step.k) >
-                               std::max(kUnevenAtAll, (problem.singular() ? kUnevenAtSingularities : kUneven) * step.k);
+        const Eigen::VectorXcd mu = beltrami_coefficient(source.operators, map);
+        const double part = problem.singular() ? kUnevenAtSingularities : kUneven;
+        return folded_samples(mu) > 0 ||
+               deviation(source.operators, mu, step.phi, step.k) > std::max(kUnevenAtAll, part * step.k);
     }
 
     /// What vertices may do after the iteration: those on lines stay where they are.
@@ -282,18 +290,29 @@ struct ExtremalSolver::Implementation {
                                                 kFinishingStep);
     }
 
-    /// The Reich-Strebel bound of a map and the φ of its c-step; 1 if there is none.
-    double lower_bound(const Eigen::VectorXcd& of, const CoefficientStep::Result& with) const {
-        const ReichStrebel integrals = reich_strebel(source, problem.chart(), *state.space, with.direction,
-                                                     beltrami_coefficient(source.operators, of));
-        return integrals.valid ? integrals.lower : 1;
+    ReichStrebel integrals_of(const Distortion& distortion, const CoefficientStep::Result& with) const {
+        return reich_strebel(source, problem.chart(), *state.space, with.direction, distortion.mu);
     }
 
     SolutionBounds bounds_of(const Eigen::VectorXcd& of, const CoefficientStep::Result& with,
-                             const Distortion& distortion) const {
+                             const Distortion& distortion, const ReichStrebel& integrals) const {
         return solution_bounds({source, boundary, problem.chart(), *state.space, with.direction, with.phi, with.k, of,
-                                distortion, paths, options.outer_loop, options.turns},
+                                distortion, integrals, paths, options.outer_loop, options.turns},
                                options.sharpen);
+    }
+
+    /// Of the map, or of the one before it was evened out: evening makes the bounds, as a rule, a little worse.
+    SolutionBounds best_bounds(const Distortion& measured) const {
+        const auto lower = [](const ReichStrebel& integrals) { return integrals.valid ? integrals.lower : 1; };
+        const ReichStrebel integrals = integrals_of(measured, step);
+        if (before_evening) {
+            const auto& [earlier_map, earlier_step] = *before_evening;
+            const Distortion earlier = distortion(source.operators, earlier_map);
+            const ReichStrebel earlier_integrals = integrals_of(earlier, earlier_step);
+            if (lower(earlier_integrals) >= lower(integrals))
+                return bounds_of(earlier_map, earlier_step, earlier, earlier_integrals);
+        }
+        return bounds_of(map, step, measured, integrals);
     }
 
     ExtremalMap record() const;
@@ -321,8 +340,7 @@ ExtremalSolver::Update ExtremalSolver::update(const std::vector<Complex>& images
     m.history.clear();
     m.iterate(how);
     const Eigen::VectorXcd mu = beltrami_coefficient(m.source.operators, m.map);
-    const auto flipped = std::count_if(mu.begin(), mu.end(), [](Complex value) { return !(std::norm(value) < 1); });
-    return {m.map, m.step.k, m.history.back().change, static_cast<int>(flipped), m.converged};
+    return {m.map, m.step.k, m.history.back().change, folded_samples(mu), m.converged};
 }
 
 ExtremalMap ExtremalSolver::solve() {
@@ -388,12 +406,7 @@ ExtremalMap ExtremalSolver::Implementation::record() const {
 
     result.K_max =
         result.distortion.flipped.empty() ? dilatation(result.distortion.max) : std::numeric_limits<double>::infinity();
-    // Evening out makes |μ| more even and the bounds, as a rule, a little worse.
-    const bool earlier =
-        before_evening && lower_bound(before_evening->map, before_evening->step) >= lower_bound(map, step);
-    const SolutionBounds bounds =
-        earlier ? bounds_of(before_evening->map, before_evening->step, distortion(operators, before_evening->map))
-                : bounds_of(map, step, result.distortion);
+    const SolutionBounds bounds = best_bounds(result.distortion);
     result.K = std::min(bounds.K, result.K_max);
     result.k = (result.K - 1) / (result.K + 1);
     result.K_lower = bounds.K_lower;

@@ -25,9 +25,8 @@ constexpr int kQuietFor = 6;
 constexpr int kPreliminaryIterations = 2;
 /// Newton step, as part of the whole, to which the first c-step with poles at corners is solved.
 constexpr double kFirstStep = 0.15;
-/// Newton steps allowed in a c-step, few while φ still changes by more than this.
-constexpr int kNewtonCap = 40, kNewtonSteps = 40;
-constexpr double kNewtonCapAbove = 1e-3;
+/// Newton steps allowed in a c-step.
+constexpr int kNewtonSteps = 40;
 /// A larger space has so many steps to settle, and may lower the bound by this part.
 constexpr int kGrownIterations = 15;
 constexpr double kWorse = 1e-4;
@@ -66,7 +65,7 @@ bool HamiltonIteration::grow(HamiltonState& state, const Eigen::VectorXcd& mu) {
     if (state.space->preliminary()) {
         state.space = state.space->refined();
         coefficient_step_.set_space(*state.space);
-        step_ = coefficient_step_.solve(mu, step_.direction, kFirstStep, kNewtonCap);
+        step_ = coefficient_step_.solve(mu, step_.direction, kFirstStep, kNewtonSteps);
         return true;
     }
     while (auto larger = state.space->refined()) {
@@ -127,8 +126,7 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
         }
         ++iterations_;
         const Eigen::VectorXcd mu = beltrami_coefficient(source_.operators, map_);
-        step_ = coefficient_step_.solve(mu, state.direction, kStepBelowChange * std::min(change, 0.1),
-                                        change > kNewtonCapAbove ? kNewtonCap : kNewtonSteps);
+        step_ = coefficient_step_.solve(mu, state.direction, kStepBelowChange * std::min(change, 0.1), kNewtonSteps);
         if (step_.merit > best.merit) {
             best = step_;
             best_map = map_;

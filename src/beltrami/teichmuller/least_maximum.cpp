@@ -25,15 +25,6 @@ Eigen::VectorXcd conformal_start(const Surface& source, const BoundaryCondition&
     return map.array() + (boundary.images[0] - map[boundary.vertices[0]]);
 }
 
-void require_open_component(const Surface& source) {
-    if (source.topology.components != 1)
-        throw Error(Cause::bad_mesh, "the mesh has " + std::to_string(source.topology.components) + " components",
-                    "keep one of them, or map each by itself");
-    if (source.topology.boundary_loops.empty())
-        throw Error(Cause::bad_mesh, "the mesh is a closed surface, which has no map to the plane without folds",
-                    "cut it open first");
-}
-
 /// The split of a problem with free boundary vertices; nothing where nothing had to be split.
 std::optional<SplitProblem> split_of(const Surface& source, const BoundaryCondition& boundary,
                                      const LeastMaximumOptions& options) {
@@ -67,9 +58,7 @@ LeastMaximumMap least_maximum_map(const Surface& source, const BoundaryCondition
         result.split = split_of(source, boundary, options);
     }
     std::optional<Surface> split_surface;
-    if (result.split)
-        split_surface =
-            result.split->metric ? Surface(result.split->mesh, *result.split->metric) : Surface(result.split->mesh);
+    if (result.split) split_surface = surface_of(result.split->mesh, result.split->metric);
     const Surface& surface = split_surface ? *split_surface : source;
     if (start.size() == 0) {
         start = conformal_start(surface, boundary);

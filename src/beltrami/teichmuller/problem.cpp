@@ -108,19 +108,16 @@ Singularities singularities_of(const Surface& source, const Chart& chart, const 
         const auto n = static_cast<int>(loop.size());
         const auto at = [&](int position) { return chart.vertices[loop[((position % n) + n) % n]]; };
         // Room until the next corner on either side: beyond, that one's poles do as well.
-        int gap = n / 2;
         double reach = kReach;
         for (const Chart::Hole& hole : chart.holes)
             if (hole.loop == corner.loop) reach = kHoleReach * hole.radius;
         for (const BoundaryCorner& other : corners) {
             if (other.loop != corner.loop || other.position == corner.position) continue;
-            const int apart = std::abs(other.position - corner.position);
-            gap = std::min({gap, apart, n - apart});
             reach = std::min(reach, std::abs(at(other.position) - at(corner.position)));
         }
         const Complex vertex = at(corner.position), next = at(corner.position + 1), last = at(corner.position - 1);
         const Complex along = next - last;
-        if (gap < kLeastGap || !(std::abs(along) > 0)) continue;
+        if (edges_to_next_corner(corner, corners, n) < kLeastGap || !(std::abs(along) > 0)) continue;
         // Poles have to lie outside: a ray from a corner can meet the domain again.
         const Complex outward = Complex(0, -1) * along / std::abs(along);
         const auto outside = [&](double distance) { return !domain.contains(vertex + distance * outward); };

@@ -6,10 +6,6 @@ namespace beltrami {
 
 namespace {
 
-Surface made(Mesh mesh, std::optional<Positions> metric) {
-    return metric ? Surface(std::move(mesh), std::move(*metric)) : Surface(std::move(mesh));
-}
-
 /// The corners of a metric in the order of midpoint_subdivide's faces.
 Positions subdivided_corners(const FaceList& faces, const Positions& corners) {
     std::vector<Eigen::RowVectorXd> rows;
@@ -61,7 +57,7 @@ Surface cut_into_triangles(const Surface& source) {
     }
     std::optional<Positions> metric;
     if (source.metric) metric = (*source.metric)(corners, Eigen::all);
-    return made(std::move(result), std::move(metric));
+    return surface_of(std::move(result), std::move(metric));
 }
 
 RefinedProblem refined_problem(const Surface& source, const BoundaryCondition& boundary) {
@@ -75,20 +71,11 @@ RefinedProblem refined_problem(const Surface& source, const BoundaryCondition& b
     for (int e = 0; e < topology.edge_count(); ++e)
         if (topology.edge_faces[e][0] < 0 || topology.edge_faces[e][1] < 0)
             finer.pin(vertices + e, 0.5 * (values[topology.edges[e][0]] + values[topology.edges[e][1]]));
-    return {made(std::move(fine.mesh), std::move(metric)), std::move(finer), std::move(fine.parents)};
+    return {surface_of(std::move(fine.mesh), std::move(metric)), std::move(finer), std::move(fine.parents)};
 }
 
 Eigen::VectorXcd RefinedProblem::interpolated(const Eigen::VectorXcd& values) const {
-    Eigen::VectorXcd result(values.size() + static_cast<Eigen::Index>(parents.size()));
-    result.head(values.size()) = values;
-    for (std::size_t i = 0; i < parents.size(); ++i) {
-        Complex sum = 0;
-        int count = 0;
-        for (const int parent : parents[i])
-            if (parent >= 0) sum += values[parent], ++count;
-        result[values.size() + static_cast<Eigen::Index>(i)] = sum / static_cast<double>(count);
-    }
-    return result;
+    return with_parents_means(values, parents);
 }
 
 }  // namespace beltrami

@@ -41,7 +41,7 @@ SolutionBounds solution_bounds(const Solution& s, std::optional<int> subdivision
     SolutionBounds result;
     const double K_max =
         s.distortion.flipped.empty() ? dilatation(s.distortion.max) : std::numeric_limits<double>::infinity();
-    const ReichStrebel own = reich_strebel(s.source, s.chart, s.space, s.coefficients, s.distortion.mu);
+    const ReichStrebel& own = s.integrals;
     const bool large = s.k >= kLargeCoefficient;
     const bool wide = own.valid && own.estimate > (1 + kWideGap) * own.lower &&
                       s.source.operators.sample_count() <= kMostSharpenedSamples;

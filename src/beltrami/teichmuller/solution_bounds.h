@@ -28,6 +28,7 @@ struct Solution {
     double k;
     const Eigen::VectorXcd& map;  ///< #V
     const Distortion& distortion;
+    const ReichStrebel& integrals;       ///< of map and φ
     const std::vector<LoopPath>& paths;  ///< of holes; empty without any
     int outer_loop = 0;
     /// Wanted turns of every loop, as in ExtremalOptions; empty: those of map.
