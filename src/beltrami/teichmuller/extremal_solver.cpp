@@ -67,8 +67,7 @@ constexpr int kResolvedEdges = 12;
 
 /// Samples that a map turns over or collapses.
 int folded_samples(const Eigen::VectorXcd& mu) {
-    return static_cast<int>(
-        std::count_if(mu.begin(), mu.end(), [](Complex value) { return !(std::norm(value) < 1); }));
+    return static_cast<int>(std::count_if(mu.begin(), mu.end(), [](Complex value) { return !(std::norm(value) < 1); }));
 }
 
 /// Prescribed vertices of @p map put in their places.
@@ -227,13 +226,13 @@ struct ExtremalSolver::Implementation {
 
     /// Runs the iteration from where it stands.
     void iterate(HamiltonIteration::Options how) {
-        how.near_last_factor = state.space && problem.solver().factorization_count() > 1;
+        problem.map_step().set_near(state.space && problem.solver().factorization_count() > 1);
         HamiltonIteration iteration(source, problem.map_step(), problem.coefficient_step(), how);
         // Only a run from nothing needs a space to begin with, and its basis is costly.
         iteration.run(state, map,
-                      state.space ? nullptr
-                                  : problem.starting_space(
-                                        PolynomialSpace::largest_degree(source.operators.sample_count())));
+                      state.space
+                          ? nullptr
+                          : problem.starting_space(PolynomialSpace::largest_degree(source.operators.sample_count())));
         map = iteration.map();
         step = iteration.last_step();
         converged = iteration.converged();
@@ -333,7 +332,7 @@ ExtremalSolver::Update ExtremalSolver::update(const std::vector<Complex>& images
     moved.images = images;
     require_feasible(m.source, moved, m.options.outer_loop);
     m.boundary = std::move(moved);
-    m.problem.map_step().prescribed = prescribed_values(m.boundary, m.source);
+    m.problem.map_step().prescribe(prescribed_values(m.boundary, m.source), line_directions(m.boundary, m.source));
     HamiltonIteration::Options how = iteration_options(m.options);
     how.max_iterations = max_iterations;
     how.grow_first = how.grow_last = false;
