@@ -133,6 +133,7 @@ void slide(const Surface& source, const CircleDomainOptions& options, CircleDoma
                     "the surface has loops that nearly touch: allow a smaller least_gap, or join the loops");
     result.steps = map.steps;
     result.converged = map.converged;
+    result.harmonic_solves = map.products;
     result.holes = std::move(map.holes);
     Chart chart = make_chart(source, std::move(map.vertices), false);
     chart.outer_loop = result.chart.outer_loop;

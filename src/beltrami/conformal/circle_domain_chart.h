@@ -40,6 +40,7 @@ struct CircleDomainChart {
     int steps = 0;          ///< Newton steps
     bool converged = true;  ///< the last step was below the tolerance
     int factorizations = 0;
+    int harmonic_solves = 0;  ///< with a factor at hand, while the rims slide
 
     int outer_loop() const { return chart.outer_loop; }
     /// The circle of a boundary loop: the unit circle for the outer one.

@@ -10,8 +10,10 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-constexpr double kEvenShare = 0.05;        // of even increments by length: a rim's first ones are at least that
+constexpr double kLeastShare = 0.2;        // of an increment in proportion to the edge's length
 constexpr double kLeastIncrement = 0.1;    // of the old increment
+constexpr double kAtLeast = 1.01;          // of the least increment: as good as it
+constexpr double kNoDescent = 1e-8;        // of the energy: what a last step may promise to lower
 constexpr double kLargestIncrement = 2.0;  // radians
 constexpr double kFirstGap = 0.05;         // circles are first made smaller until they have it
 constexpr double kKeptGap = 0.3;           // part of the least gap that a step leaves
@@ -49,8 +51,10 @@ struct Rim {
     Complex centre = 0;
     double radius = 1;
     std::vector<double> angles;  // increasing, less than a turn
-    std::vector<char> held;
-    int first = 0;  // of its vertices among all rim vertices
+    std::vector<double> least;   // increments
+    std::vector<char> held;      // does not slide
+    std::vector<char> tied;      // keeps its increment to the next one
+    int first = 0;               // of its vertices among all rim vertices
 
     int size() const { return static_cast<int>(vertices.size()); }
     Complex direction(int i) const { return std::polar(1.0, angles[i]); }
@@ -69,6 +73,7 @@ std::vector<Rim> rims_of(const Surface& surface, int outer_loop, const std::vect
         rim.first = first;
         first += rim.size();
         rim.held.assign(rim.vertices.size(), 0);
+        rim.tied.assign(rim.vertices.size(), 0);
         if (l != outer_loop) {
             std::reverse(rim.vertices.begin(), rim.vertices.end());
             rim.hole = hole;
@@ -98,20 +103,21 @@ void read_angles(Rim& rim, const Eigen::VectorXcd& z) {
 void choose_angles(Rim& rim, const Eigen::VectorXcd& z) {
     read_angles(rim, z);
     const int n = rim.size();
-    std::vector<double> increments(n), least(n);
+    std::vector<double> increments(n);
+    rim.least.resize(n);
     double length = 0, turn = 0;
     for (int i = 0; i < n; ++i) {
         const Complex a = z[rim.vertices[i]], b = z[rim.vertices[(i + 1) % n]];
-        least[i] = std::abs(b - a);
-        length += least[i];
+        rim.least[i] = std::abs(b - a);
+        length += rim.least[i];
         increments[i] = std::arg((b - rim.centre) * std::conj(a - rim.centre));
         turn += increments[i];
     }
     if (!(std::abs(turn - 2 * kPi) < 1e-6)) {  // the centre is not inside: by length
-        for (int i = 0; i < n; ++i) increments[i] = least[i] / length * 2 * kPi;
+        for (int i = 0; i < n; ++i) increments[i] = rim.least[i] / length * 2 * kPi;
     }
-    for (double& share : least) share = std::max(share / length, 1e-6 / n) * 2 * kPi * kEvenShare;
-    limit_increments(increments, least);
+    for (double& share : rim.least) share = std::max(share / length, 1e-6 / n) * 2 * kPi * kLeastShare;
+    limit_increments(increments, rim.least);
     Complex turned = 0;  // mean rotation from the new angles to those of the points
     double angle = rim.angles[0];
     for (int i = 0; i < n; ++i) {
@@ -231,6 +237,29 @@ class RimEnergy {
     mutable int products_ = 0;
 };
 
+/// Chains of tied vertices slide together: their mean; not at all with a held one.
+void project(const std::vector<Rim>& rims, Eigen::VectorXd& unknowns) {
+    for (const Rim& rim : rims) {
+        const int n = rim.size();
+        int start = 0;  // of a chain
+        while (start < n && rim.tied[(start + n - 1) % n]) ++start;
+        start %= n;
+        for (int done = 0; done < n;) {
+            int count = 1;
+            const auto at = [&](int j) { return (start + done + j) % n; };
+            while (done + count < n && rim.tied[at(count - 1)]) ++count;
+            double sum = 0;
+            bool held = false;
+            for (int j = 0; j < count; ++j) {
+                sum += unknowns[rim.first + at(j)];
+                held = held || rim.held[at(j)];
+            }
+            for (int j = 0; j < count; ++j) unknowns[rim.first + at(j)] = held ? 0.0 : sum / count;
+            done += count;
+        }
+    }
+}
+
 /// Tangential part of rim forces, and their sums for every hole: the derivative of the energy.
 Eigen::VectorXd pulled_back(const std::vector<Rim>& rims, const Eigen::VectorXcd& force, int unknowns) {
     Eigen::VectorXd result = Eigen::VectorXd::Zero(unknowns);
@@ -238,13 +267,14 @@ Eigen::VectorXd pulled_back(const std::vector<Rim>& rims, const Eigen::VectorXcd
     for (const Rim& rim : rims)
         for (int i = 0; i < rim.size(); ++i) {
             const Complex pull = std::conj(rim.direction(i)) * force[rim.first + i];
-            if (!rim.held[i]) result[rim.first + i] = pull.imag();
+            result[rim.first + i] = pull.imag();
             if (rim.hole < 0) continue;
             double* of_hole = result.data() + circles + 3L * rim.hole;
             of_hole[0] += force[rim.first + i].real();
             of_hole[1] += force[rim.first + i].imag();
             of_hole[2] += pull.real();
         }
+    project(rims, result);
     return result;
 }
 
@@ -254,9 +284,8 @@ Eigen::VectorXcd pushed_forward(const std::vector<Rim>& rims, const Eigen::Vecto
     Eigen::VectorXcd motion = Eigen::VectorXcd::Zero(vertices);
     for (const Rim& rim : rims)
         for (int i = 0; i < rim.size(); ++i) {
-            const double slide = rim.held[i] ? 0.0 : unknowns[rim.first + i];
             Complex& m = motion[rim.vertices[i]];
-            m = Complex(0, slide) * rim.direction(i);
+            m = Complex(0, unknowns[rim.first + i]) * rim.direction(i);
             if (rim.hole < 0) continue;
             const double* of_hole = unknowns.data() + circles + 3L * rim.hole;
             m += Complex(of_hole[0], of_hole[1]) + of_hole[2] * rim.direction(i);
@@ -276,7 +305,7 @@ std::vector<Rim> moved(std::vector<Rim> rims, const Eigen::VectorXd& step, doubl
             if (!(rim.radius > 0)) return rims;
         }
         std::vector<double> turn(n);
-        for (int i = 0; i < n; ++i) turn[i] = rim.held[i] ? 0.0 : length * step[rim.first + i] / rim.radius;
+        for (int i = 0; i < n; ++i) turn[i] = length * step[rim.first + i] / rim.radius;
         // Pieces from one held vertex to the next; the whole circle where none is held.
         int start = 0;
         while (start < n && !rim.held[start]) ++start;
@@ -291,7 +320,7 @@ std::vector<Rim> moved(std::vector<Rim> rims, const Eigen::VectorXd& step, doubl
                 const int next = (i + 1) % n;
                 const double old = rim.increment(i);
                 increments.push_back(old + turn[next] - turn[i]);
-                least.push_back(kLeastIncrement * old);
+                least.push_back(std::min(old, std::max(kLeastIncrement * old, rim.least[i])));
                 limited = limited || increments.back() < least.back() || increments.back() > kLargestIncrement;
                 i = next;
             } while (i != first && !rim.held[i]);
@@ -310,6 +339,8 @@ std::vector<Rim> moved(std::vector<Rim> rims, const Eigen::VectorXd& step, doubl
             done += static_cast<int>(increments.size());
         }
         for (int i = 0; i < n; ++i) rim.angles[i] += turn[i];
+        for (int i = 0; i < n; ++i)
+            if (rim.increment(i) <= kAtLeast * rim.least[i]) rim.tied[i] = 1;
     }
     return rims;
 }
@@ -336,6 +367,7 @@ struct NewtonSystem {
         const Eigen::VectorXcd motion = pushed_forward(rims, p, circles, vertices);
         Eigen::VectorXd result = pulled_back(rims, energy.force(energy.extended(motion)), static_cast<int>(p.size()));
         result.head(circles) += curvature.cwiseProduct(p.head(circles));
+        project(rims, result);
         return result;
     }
 
@@ -390,6 +422,7 @@ CircleSlide put_on_circles(const Surface& surface, const BeltramiSolver& dirichl
         if (!surface.topology.on_boundary[v]) result.vertices[v] = vertices[v] + inside[v];
     for (const Rim& rim : rims)
         for (int i = 0; i < rim.size(); ++i) result.vertices[rim.vertices[i]] = rim.position(i);
+    for (Rim& rim : rims) result.least_increments.push_back(std::move(rim.least));
     result.holes = holes_of(rims, outer_loop);
     result.products = 1;
     return result;
@@ -399,7 +432,10 @@ void slide_on_circles(const Surface& surface, const BeltramiSolver& dirichlet, i
                       const CircleSlideOptions& options) {
     const Eigen::Index vertices = map.vertices.size();
     std::vector<Rim> rims = rims_of(surface, outer_loop, map.holes);
-    for (Rim& rim : rims) read_angles(rim, map.vertices);
+    for (std::size_t l = 0; l < rims.size(); ++l) {
+        read_angles(rims[l], map.vertices);
+        rims[l].least = map.least_increments[l];
+    }
     hold_three(rims[outer_loop]);
     const RimEnergy rim_energy(surface, dirichlet, rims);
     std::vector<CircleKernel> kernels;
@@ -461,6 +497,7 @@ void slide_on_circles(const Surface& surface, const BeltramiSolver& dirichlet, i
         }
         if (!accepted) {
             map.too_close = near;
+            map.converged = !near && -slope <= kNoDescent * map.energy;
             break;
         }
     }

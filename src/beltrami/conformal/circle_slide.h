@@ -17,6 +17,9 @@ struct CircleSlideOptions {
 struct CircleSlide {
     Eigen::VectorXcd vertices;  ///< #V
     std::vector<RoundHole> holes;
+    /// Of every boundary loop, in its order (a hole's backwards): the least angle from a vertex to the next that
+    /// sliding leaves. Without it a spike of the rim, which the conformal map makes small, collapses.
+    std::vector<std::vector<double>> least_increments;
     double energy = 0;  ///< Σ A|∂̄f|²
     int steps = 0;
     int products = 0;  ///< harmonic solves
