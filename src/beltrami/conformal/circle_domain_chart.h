@@ -10,8 +10,7 @@ namespace beltrami {
 
 struct CircleDomainOptions {
     int max_steps = 30;       ///< Newton steps of the sliding rims
-    double tolerance = 1e-7;  ///< stop when a step turns no rim vertex (radians) and moves no circle by more
-    /// An exact chart whose rims, made rounder by an analytic map, are as round as that is kept exact: the rims only
+    double tolerance = 1e-7;  ///< the last step is one that promises to lower the energy by less than this part
     /// snap to their circles. Relative to the radius.
     double exact_roundness = 1e-6;
     /// Circles that come closer, relative to the radius of the smaller one, are refused.

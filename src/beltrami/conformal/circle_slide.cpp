@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace beltrami {
 
@@ -11,9 +12,12 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 constexpr double kLeastShare = 0.2;        // of an increment in proportion to the edge's length
+constexpr int kNearby = 4;                 // edges on either side with which one is compared
+constexpr double kLeastRate = 1e-4;        // of angle per length, and of length, against the mean
 constexpr double kLeastIncrement = 0.1;    // of the old increment
 constexpr double kAtLeast = 1.01;          // of the least increment: as good as it
-constexpr double kNoDescent = 1e-8;        // of the energy: what a last step may promise to lower
+constexpr double kMostNegative = 0.4;      // curvature of a circle, half the diagonal of the rest on an even rim
+constexpr double kRounding = 1e-15;        // of energies, which are at most about 3
 constexpr double kLargestIncrement = 2.0;  // radians
 constexpr double kFirstGap = 0.05;         // circles are first made smaller until they have it
 constexpr double kKeptGap = 0.3;           // part of the least gap that a step leaves
@@ -53,6 +57,7 @@ struct Rim {
     std::vector<double> angles;  // increasing, less than a turn
     std::vector<double> least;   // increments
     std::vector<char> held;      // does not slide
+    std::vector<char> released;  // once; 1 while it is being done
     std::vector<char> tied;      // keeps its increment to the next one
     int first = 0;               // of its vertices among all rim vertices
 
@@ -74,6 +79,7 @@ std::vector<Rim> rims_of(const Surface& surface, int outer_loop, const std::vect
         first += rim.size();
         rim.held.assign(rim.vertices.size(), 0);
         rim.tied.assign(rim.vertices.size(), 0);
+        rim.released.assign(rim.vertices.size(), 0);
         if (l != outer_loop) {
             std::reverse(rim.vertices.begin(), rim.vertices.end());
             rim.hole = hole;
@@ -99,24 +105,40 @@ void read_angles(Rim& rim, const Eigen::VectorXcd& z) {
     }
 }
 
+/// For every edge of a rim a part of the angle that is its due by length among the edges nearby. The conformal map
+/// gives a long bay little of the circle, but a spike of one or two edges no less than that here.
+std::vector<double> least_increments(const std::vector<double>& lengths, const std::vector<double>& increments) {
+    const int n = static_cast<int>(lengths.size());
+    const double even = 2 * kPi / std::accumulate(lengths.begin(), lengths.end(), 0.0);
+    std::vector<double> least(n);
+    for (int i = 0; i < n; ++i) {
+        double length = 0, angle = 0;
+        for (int j = -kNearby; j <= kNearby; ++j) {
+            const int k = (i + n + j % n) % n;
+            length += lengths[k];
+            angle += increments[k];
+        }
+        const double rate = std::max(angle / length, kLeastRate * even);
+        least[i] = kLeastShare * rate * std::max(lengths[i], kLeastRate * length);
+    }
+    return least;
+}
+
 /// Angles of points near circles, brought in order.
 void choose_angles(Rim& rim, const Eigen::VectorXcd& z) {
     read_angles(rim, z);
     const int n = rim.size();
-    std::vector<double> increments(n);
-    rim.least.resize(n);
-    double length = 0, turn = 0;
+    std::vector<double> increments(n), lengths(n);
     for (int i = 0; i < n; ++i) {
         const Complex a = z[rim.vertices[i]], b = z[rim.vertices[(i + 1) % n]];
-        rim.least[i] = std::abs(b - a);
-        length += rim.least[i];
+        lengths[i] = std::abs(b - a);
         increments[i] = std::arg((b - rim.centre) * std::conj(a - rim.centre));
-        turn += increments[i];
     }
-    if (!(std::abs(turn - 2 * kPi) < 1e-6)) {  // the centre is not inside: by length
-        for (int i = 0; i < n; ++i) increments[i] = rim.least[i] / length * 2 * kPi;
-    }
-    for (double& share : rim.least) share = std::max(share / length, 1e-6 / n) * 2 * kPi * kLeastShare;
+    const double length = std::accumulate(lengths.begin(), lengths.end(), 0.0),
+                 turn = std::accumulate(increments.begin(), increments.end(), 0.0);
+    if (!(std::abs(turn - 2 * kPi) < 1e-6))  // the centre is not inside: by length
+        for (int i = 0; i < n; ++i) increments[i] = lengths[i] / length * 2 * kPi;
+    rim.least = least_increments(lengths, increments);
     limit_increments(increments, rim.least);
     Complex turned = 0;  // mean rotation from the new angles to those of the points
     double angle = rim.angles[0];
@@ -203,7 +225,7 @@ class RimEnergy {
     int rim_vertices() const { return rim_vertices_; }
     int products() const { return products_; }
 
-    /// Half the derivative of Σ A|∂̄f|² by the rim vertices, f given inside too.
+    /// The derivative of Σ A|∂̄f|² by the rim vertices, f given inside too.
     Eigen::VectorXcd force(const Eigen::VectorXcd& f) const {
         Eigen::VectorXcd force = Eigen::VectorXcd::Zero(rim_vertices_);
         for (const int s : samples_) {
@@ -355,6 +377,45 @@ void hold_three(Rim& outer) {
         }
 }
 
+/// Unties what the energy wants apart; each tie once. The derivative by an increment, the rest of its chain at rest, is
+/// the sum of what pulls at the vertices beyond it.
+int release(std::vector<Rim>& rims, const Eigen::VectorXcd& force) {
+    int count = 0;
+    for (Rim& rim : rims) {
+        const int n = rim.size();
+        for (int first = 0; first < n; ++first) {
+            if (!rim.tied[first] || rim.tied[(first + n - 1) % n]) continue;
+            double mean = 0, below = 0;
+            bool held = false;
+            int length = 0;  // ties of the chain
+            const auto pull = [&](int j) {
+                const int i = (first + j) % n;
+                return std::imag(std::conj(rim.direction(i)) * force[rim.first + i]);
+            };
+            while (length < n && rim.tied[(first + length) % n]) ++length;
+            for (int j = 0; j <= length; ++j) {
+                mean += pull(j) / (length + 1);
+                held = held || rim.held[(first + j) % n];
+            }
+            if (held || length == n) continue;
+            for (int j = 0; j < length; ++j) {
+                below += pull(j) - mean;
+                const int i = (first + j) % n;
+                if (below > 0 && !rim.released[i]) {
+                    rim.released[i] = 1;
+                    ++count;
+                }
+            }
+        }
+        for (int i = 0; i < n; ++i)
+            if (rim.released[i] == 1) {
+                rim.tied[i] = 0;
+                rim.released[i] = 2;
+            }
+    }
+    return count;
+}
+
 struct NewtonSystem {
     const std::vector<Rim>& rims;
     const RimEnergy& energy;
@@ -373,12 +434,10 @@ struct NewtonSystem {
 
     Eigen::VectorXd precondition(const Eigen::VectorXd& r) const {
         Eigen::VectorXd result = r;
-        for (std::size_t l = 0; l < rims.size(); ++l) {
-            // The energy is a quarter of ∫|∇f|² less half the area.
+        // The energy is a quarter of ∫|∇f|² less half the area.
+        for (std::size_t l = 0; l < rims.size(); ++l)
             result.segment(rims[l].first, rims[l].size()) = 2 * (kernels[l] * r.segment(rims[l].first, rims[l].size()));
-            for (int i = 0; i < rims[l].size(); ++i)
-                if (rims[l].held[i]) result[rims[l].first + i] = 0;
-        }
+        project(rims, result);
         return result;
     }
 
@@ -451,7 +510,7 @@ void slide_on_circles(const Surface& surface, const BeltramiSolver& dirichlet, i
             for (int i = 0; i < rims[l].size(); ++i) {
                 const double bend =
                     -std::real(std::conj(force[rims[l].first + i]) * rims[l].direction(i)) / rims[l].radius;
-                system.curvature[rims[l].first + i] = std::max(bend, -0.3 / (2 * kernels[l].diagonal(i)));
+                system.curvature[rims[l].first + i] = std::max(bend, -kMostNegative);
             }
         const Eigen::VectorXd gradient = pulled_back(rims, force, unknowns);
         const double norm = std::sqrt(std::max(0.0, gradient.dot(system.precondition(gradient))));
@@ -462,6 +521,7 @@ void slide_on_circles(const Surface& surface, const BeltramiSolver& dirichlet, i
         }
         const Eigen::VectorXd step = system.solve(gradient, std::min(0.1, std::max(norm / first_gradient, 1e-4)));
         const double slope = gradient.dot(step);
+        const bool converging = -slope <= options.tolerance * map.energy + kRounding;
 
         const double gap = least_gap(map.holes);
         double length = 1;
@@ -479,16 +539,9 @@ void slide_on_circles(const Surface& surface, const BeltramiSolver& dirichlet, i
             Eigen::VectorXcd g = rim_energy.extended(boundary_values(trial, vertices));
             const Eigen::VectorXcd new_force = rim_energy.force(g);
             const double energy = rim_energy.energy(trial, new_force);
-            if (!(energy <= map.energy + kArmijo * length * slope + 1e-13 * std::abs(map.energy) + 1e-18)) continue;
+            if (!(energy <= map.energy + kArmijo * length * slope + kRounding)) continue;
             accepted = true;
-            double largest = 0;
-            for (std::size_t l = 0; l < rims.size(); ++l) {
-                for (int i = 0; i < rims[l].size(); ++i)
-                    largest = std::max(largest, std::abs(trial[l].angles[i] - rims[l].angles[i]));
-                largest = std::max(
-                    {largest, std::abs(trial[l].centre - rims[l].centre), std::abs(trial[l].radius - rims[l].radius)});
-            }
-            map.converged = length == 1 && largest <= options.tolerance;
+            map.converged = converging && release(trial, new_force) == 0;
             rims = std::move(trial);
             map.holes = holes;
             map.energy = energy;
@@ -497,7 +550,7 @@ void slide_on_circles(const Surface& surface, const BeltramiSolver& dirichlet, i
         }
         if (!accepted) {
             map.too_close = near;
-            map.converged = !near && -slope <= kNoDescent * map.energy;
+            map.converged = !near && converging;
             break;
         }
     }

@@ -9,7 +9,7 @@ namespace beltrami {
 
 struct CircleSlideOptions {
     int max_steps = 30;
-    double tolerance = 1e-7;  ///< stop when a step turns no rim vertex (radians) and moves no circle by more
+    double tolerance = 1e-7;  ///< the last step is one that promises to lower the energy by less than this part
     double least_gap = 1e-3;  ///< circles keep this distance, relative to the smaller radius
 };
 
