@@ -25,7 +25,10 @@
 #include <beltrami/maps/even_dilatation.h>
 #include <beltrami/maps/fold_free.h>
 #include <beltrami/maps/homotopy.h>
+#include <beltrami/maps/marks.h>
 #include <beltrami/maps/prescribed_split.h>
+#include <beltrami/maps/target_curve.h>
+#include <beltrami/maps/target_domain.h>
 #include <beltrami/maps/twist.h>
 #include <beltrami/mesh/cut.h>
 #include <beltrami/mesh/diagnosis.h>
