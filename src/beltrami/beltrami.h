@@ -8,6 +8,7 @@
 #include <beltrami/conformal/fill_holes.h>
 #include <beltrami/conformal/flatten.h>
 #include <beltrami/conformal/round_disk.h>
+#include <beltrami/conformal/target_mesh.h>
 #include <beltrami/generate/double_torus.h>
 #include <beltrami/generate/grids.h>
 #include <beltrami/generate/planar_domains.h>
@@ -40,6 +41,7 @@
 #include <beltrami/mesh/topology.h>
 #include <beltrami/operators/distortion.h>
 #include <beltrami/operators/surface.h>
+#include <beltrami/report/target_file.h>
 #include <beltrami/teichmuller/certificate.h>
 #include <beltrami/teichmuller/certify.h>
 #include <beltrami/teichmuller/extremal_map.h>
