@@ -2,6 +2,7 @@
 
 /// The one header that most users include.
 
+#include <beltrami/applications/grid_on_surface.h>
 #include <beltrami/baselines/baseline.h>
 #include <beltrami/conformal/boundary_values.h>
 #include <beltrami/conformal/domain_chart.h>
