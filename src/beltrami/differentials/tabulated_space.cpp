@@ -13,11 +13,11 @@ TabulatedSpace::TabulatedSpace(Eigen::MatrixXcd values, Coefficients coefficient
     std::vector<int> samples;
     for (Eigen::Index s = 0; s < values_.rows(); ++s)
         if (!values_.row(s).allFinite()) samples.push_back(static_cast<int>(s));
-    if (!samples.empty())
-        throw Error(Cause::bad_option,
-                    "tabulated differentials are not finite at " + std::to_string(samples.size()) +
-                        " samples, the first of which is " + std::to_string(samples.front()),
-                    "give finite values", std::move(samples));
+    if (samples.empty()) return;
+    const std::string where =
+        std::to_string(samples.size()) + " samples, the first of which is " + std::to_string(samples.front());
+    throw Error(Cause::bad_option, "tabulated differentials are not finite at " + where, "give finite values",
+                std::move(samples));
 }
 
 Eigen::MatrixXcd TabulatedSpace::generators(const ChartPoints&) const {
