@@ -13,6 +13,7 @@ namespace beltrami {
 /// nodes per cell of a grid over the canonical domain only: inside a cell a holomorphic function is its cubic
 /// interpolant through four points of a circle. That costs a few operations a sample instead of a few per function and
 /// sample. Where singularities would ask for nearly as many cells as samples, functions are evaluated afresh each time.
+/// A tabulated space is its values at all samples, whatever their number.
 class SampledSpace {
   public:
     /// @param chart kept by reference
@@ -38,7 +39,8 @@ class SampledSpace {
 
     const Chart& chart_;
     const DifferentialSpace* space_ = nullptr;
-    Mode mode_ = Mode::dense;
+    Mode mode_ = Mode::dense;     ///< of spaces that can be evaluated anywhere
+    Mode current_ = Mode::dense;  ///< of the current space
     ChartGrid grid_{{}, {0}, {}, {}};
     Eigen::VectorXcd centres_;  ///< #cells
     SplitMatrix values_;        ///< of the generators: #S × g; or 4 #cells × g in the canonical domain
