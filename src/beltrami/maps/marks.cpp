@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include <beltrami/mesh/error.h>
@@ -108,6 +109,23 @@ void validate(const std::vector<Mark>& marks, const Surface& source, const Targe
         }
         first = last;
     }
+}
+
+Mark nearest_mark(const TargetDomain& domain, int vertex, Complex point) {
+    if (!std::isfinite(point.real()) || !std::isfinite(point.imag()))
+        throw Error(Cause::bad_boundary, "the place of the marked vertex " + std::to_string(vertex) + " is not finite",
+                    "give numbers", {vertex});
+    Mark best{vertex, 0, 0};
+    double least = std::numeric_limits<double>::infinity();
+    for (int c = 0; c < domain.curve_count(); ++c) {
+        const double s = domain.curve(c).nearest(point);
+        const double distance = std::abs(domain.curve(c).point(s) - point);
+        if (distance < least) {
+            least = distance;
+            best = {vertex, c, s};
+        }
+    }
+    return best;
 }
 
 std::vector<Mark> marks_at_points(const Surface& source, const TargetDomain& domain, const std::vector<int>& partners,

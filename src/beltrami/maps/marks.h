@@ -21,6 +21,10 @@ struct Mark {
 std::vector<Mark> marks_at_points(const Surface& source, const TargetDomain& domain, const std::vector<int>& partners,
                                   const std::vector<int>& vertices, const std::vector<Complex>& points);
 
+/// The mark that sends a vertex to the nearest point of the nearest curve (of equally near ones the first).
+/// @throw Error bad_boundary if the point is not finite
+Mark nearest_mark(const TargetDomain& domain, int vertex, Complex point);
+
 /// Marks that send boundary vertices to boundary vertices of a target mesh, whose domain is boundary_domain(target).
 /// @param target_vertices beside vertices
 /// @throw Error bad_boundary as validate, or naming target vertices that are not on the partner of their loop
