@@ -45,6 +45,8 @@
 #include <beltrami/report/target_file.h>
 #include <beltrami/teichmuller/certificate.h>
 #include <beltrami/teichmuller/certify.h>
+#include <beltrami/teichmuller/distance.h>
 #include <beltrami/teichmuller/extremal_map.h>
+#include <beltrami/teichmuller/extremal_onto.h>
 #include <beltrami/teichmuller/extremal_solver.h>
 #include <beltrami/teichmuller/least_maximum.h>

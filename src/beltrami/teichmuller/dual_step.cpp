@@ -144,7 +144,9 @@ DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& star
     const double total = problem.weights.sum();
     const double delta = total > 0 ? problem.rounding * problem.weights.dot(coarse_phi.cwiseAbs()) / total : 0.0;
     double norm = fine.norm(phi, delta);
-    for (; solution.newton_steps < options.max_steps; ++solution.newton_steps) {
+    // The hyperplane of a single real function is a point.
+    solution.converged = x.size() == 1;
+    for (; x.size() > 1 && solution.newton_steps < options.max_steps; ++solution.newton_steps) {
         const Eigen::VectorXd gradient = view.covector(fine.gradient(phi, delta));
         Eigen::MatrixXd hessian = dual_hessian(problem, view, coarse_phi, delta);
         // c itself is a null direction (N is homogeneous of degree one). On the hyperplane a multiple of p pᵀ changes
