@@ -12,6 +12,7 @@
 #include <beltrami/maps/fold_free.h>
 #include <beltrami/mesh/error.h>
 #include <beltrami/mesh/polygon.h>
+#include <beltrami/teichmuller/sliding_loops.h>
 #include <beltrami/teichmuller/sliding_map_step.h>
 #include <beltrami/teichmuller/sliding_start.h>
 
@@ -26,8 +27,6 @@ constexpr int kLastSteps = 10;
 constexpr double kSettled = 1e-9;
 /// Newton steps of the boundary where there are no differentials: the map is conformal.
 constexpr int kConformalSteps = 100;
-/// A loop's image encloses at least this part of what its curve does.
-constexpr double kLeastArea = 0.5;
 /// Points of the c-step on large meshes, and what sharper differences of φ ask for.
 constexpr int kClusters = 1500;
 
@@ -135,42 +134,6 @@ std::vector<int> marked_vertices(const Surface& source, const std::vector<Mark>&
     return result;
 }
 
-/// Holds as many vertices as conformal maps of the source to itself leave free: one of an annulus, three of a disk.
-void hold_what_conformal_maps_move(const Surface& source, std::vector<SlidingLoop>& loops, int outer,
-                                   std::size_t marks) {
-    const std::size_t holes = loops.size() - 1;
-    const std::size_t free = holes == 0 ? 3 : holes == 1 ? 1 : 0;
-    if (marks >= free) return;
-    for (SlidingLoop& sliding : loops) {
-        if (sliding.loop != outer) continue;
-        // Places that share the curve evenly with the marks of this loop.
-        const std::size_t n = source.topology.boundary_loops[outer].size();
-        for (std::size_t more = marks; more < free; ++more) {
-            std::size_t best = 0;
-            double farthest = -1;
-            for (std::size_t i = 0; i < n; ++i) {
-                double nearest = std::numeric_limits<double>::infinity();
-                for (std::size_t j = 0; j < n; ++j)
-                    if (sliding.held[j])
-                        nearest =
-                            std::min(nearest, std::abs(std::remainder(sliding.parameters[i] - sliding.parameters[j],
-                                                                      sliding.curve.length())));
-                if (nearest > farthest * (1 + 1e-9)) farthest = nearest, best = i;
-            }
-            sliding.held[best] = 1;
-        }
-    }
-}
-
-double enclosed_area(const std::vector<int>& loop, const Eigen::VectorXcd& map) {
-    double twice = 0;
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-        const Complex a = map[loop[i]], b = map[loop[(i + 1) % loop.size()]];
-        twice += std::imag(std::conj(a) * b);
-    }
-    return 0.5 * twice;
-}
-
 /// Boundary vertices that keep their places.
 std::vector<Freedom> held_boundary(const Surface& source) {
     std::vector<Freedom> result(source.mesh.vertex_count(), Freedom::fixed);
@@ -200,7 +163,7 @@ class OntoProblem {
 
     ExtremalMapOnto solve(const TargetModel& target) {
         SlidingStart start = sliding_start(source_, domain_, target, options_);
-        hold_what_conformal_maps_move(source_, start.loops, options_.outer_loop, marked_.size());
+        hold_what_conformal_maps_move(source_, start.loops, options_.outer_loop);
         ExtremalMapOnto result;
         result.start = start.map;
         result.rotation = start.rotation;
@@ -311,17 +274,8 @@ class OntoProblem {
     }
 
     void record_loops(const std::vector<int>& curves, const SlidingBoundary& boundary, ExtremalMapOnto& result) const {
-        for (const SlidingLoop& sliding : boundary.loops()) {
-            const auto& vertices = source_.topology.boundary_loops[sliding.loop];
-            const double area = enclosed_area(vertices, result.map);
-            const double whole = sliding.curve.counter_clockwise() ? sliding.curve.area() : -sliding.curve.area();
-            result.loops.push_back({sliding.loop, curves[sliding.loop], sliding.parameters, area / whole});
-            if (!(result.loops.back().area_ratio > kLeastArea))
-                throw Error(Cause::not_solved,
-                            "boundary loop " + std::to_string(sliding.loop) + " has collapsed: its image encloses " +
-                                std::to_string(100 * result.loops.back().area_ratio) + " % of what its curve does",
-                            "give the loop more vertices, or lead the start there by waypoints");
-        }
+        result.loops = loops_onto(source_, boundary, curves, result.map);
+        require_not_collapsed(result.loops);
         for (const Mark& mark : options_.marks) {
             for (const SlidingLoop& sliding : boundary.loops())
                 if (curves[sliding.loop] == mark.curve)
@@ -355,14 +309,6 @@ class OntoProblem {
     CircleDomainChart domain_;
     std::vector<int> marked_;
 };
-
-/// Mean edge of the source in the unit disk, carried over to a target of some size.
-double edge_length_for(const Surface& source, const TargetDomain& target, const OntoOptions& options) {
-    if (options.target_edge_length > 0) return options.target_edge_length;
-    double area = target.outer.area();
-    for (const TargetCurve& hole : target.holes) area -= hole.area();
-    return std::sqrt(4 / std::sqrt(3.0) * area / source.mesh.face_count());
-}
 
 }  // namespace
 
@@ -433,7 +379,7 @@ ExtremalMapOnto extremal_map(const Surface& source, const TargetDomain& target, 
         throw Error(Cause::bad_option, "marks by vertices of the target are given for a target that has none",
                     "give places on its curves instead");
     OntoProblem problem(source, options);
-    return problem.solve(*target_model(target, edge_length_for(source, target, options)));
+    return problem.solve(*target_model(target, edge_length_for(source, target, options.target_edge_length)));
 }
 
 ExtremalMapOntoSurface extremal_map(const Surface& source, const Surface& target, const OntoOptions& options,
