@@ -19,7 +19,7 @@ constexpr int kExpectedFactorizations = 6;
 /// |ν| of a damped step, where the map at hand is folded.
 constexpr double kMostNu = 0.98;
 /// Beyond this part of the residual the misfit counts as one; below the other value all is rounding.
-constexpr double kMisfit = 0.6, kRounding = 1e-9;
+constexpr double kMisfit = 0.4, kRounding = 1e-9;
 
 void require_coefficient(const Surface& source, const Eigen::VectorXcd& mu) {
     if (mu.size() != source.operators.sample_count())

@@ -49,7 +49,7 @@ struct FlowMap {
     Eigen::VectorXcd map;    ///< #V images in the target's plane
     Distortion distortion;   ///< of map
     CoefficientError error;  ///< of map
-    /// Whether μ belongs to a map onto this target as far as the mesh can tell: the misfit is below 0.6 of the
+    /// Whether μ belongs to a map onto this target as far as the mesh can tell: the misfit is below 0.4 of the
     /// residual, or both are rounding.
     bool fits = true;
     std::vector<LoopOnto> loops;  ///< in the order of the source's loops
