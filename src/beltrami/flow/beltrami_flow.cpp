@@ -30,11 +30,10 @@ void require_coefficient(const Surface& source, const Eigen::VectorXcd& mu) {
     std::vector<int> bad;
     for (Eigen::Index s = 0; s < mu.size(); ++s)
         if (!(std::abs(mu[s]) < 1)) bad.push_back(static_cast<int>(s));
-    if (!bad.empty())
-        throw Error(Cause::bad_option,
-                    "the coefficient is not below 1 in size at " + std::to_string(bad.size()) +
-                        " samples, the first of them " + std::to_string(bad[0]),
-                    "every |μ| must be finite and below 1", std::move(bad));
+    if (bad.empty()) return;
+    const std::string sentence = "the coefficient is not below 1 in size at " + std::to_string(bad.size()) +
+                                 " samples, the first of them " + std::to_string(bad[0]);
+    throw Error(Cause::bad_option, sentence, "every |μ| must be finite and below 1", std::move(bad));
 }
 
 /// Root mean square of b − a by that of a's distance from its mean, over the vertices of faces.
