@@ -71,7 +71,7 @@ TEST(BeltramiFlow, SaysThatTheCoefficientBelongsToAnotherRectangle) {
 TEST(BeltramiFlow, FindsTheRadialStretchOfARing) {
     const double inner = 0.4, alpha = 1.6;
     double last = 0;
-    for (const double h : {0.12, 0.08, 0.06, 0.04, 0.03, 0.02}) {
+    for (const double h : {0.08, 0.04, 0.02}) {
         const Surface source(disk_with_holes({{0, 0, inner}}, h));
         const Eigen::VectorXcd z = planar_coordinates(source.mesh);
         Eigen::VectorXcd mu(source.operators.sample_count());
@@ -94,9 +94,9 @@ TEST(BeltramiFlow, FindsTheRadialStretchOfARing) {
         if (last > 0) {
             EXPECT_GT(std::log2(last / worst), 1.6);
         }
-        printf("ring h %g worst %.4e\n",h,worst);last = worst;
+        last = worst;
     }
-    EXPECT_LT(last, 3e-3);
+    EXPECT_LT(last, 1e-4);
 }
 
 TEST(BeltramiFlow, TellsRingsOfOtherModuliAtAnySize) {
