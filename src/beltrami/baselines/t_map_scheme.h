@@ -23,7 +23,7 @@ struct TMapSchemeOptions {
     double damping = 0.1;      ///< ε of the damping D, eq. (33); 0: P alone, which then must slide to reach anything
     int projection_steps = 5;  ///< most solves of one projection
     double smoothing = 0.75;   ///< how far arg μ goes to the mean of its neighbours in one pass; ¾: to that of a
-                              ///< triangle and its neighbours, eq. (36)
+                               ///< triangle and its neighbours, eq. (36)
     int smoothing_passes = 1;
     /// Solves for the coefficient 0 with which the scheme begins (section 5.3). The paper lets them settle; then they
     /// can end in a collapse of holes.
