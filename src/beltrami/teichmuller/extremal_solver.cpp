@@ -50,9 +50,9 @@ constexpr double kUnevenAtSingularities = 0.02, kUneven = 0.1, kUnevenAtAll = 2e
 /// steps.
 constexpr double kRoughTolerance = 0.03;
 constexpr int kRoughIterations = 16;
-constexpr double kRoughRounding = 0.005;
+constexpr double kRoughRounding = 0.005, kRoughStep = 0.2;
 /// Newton step, as part of the whole, to which the c-step is solved after the iteration.
-constexpr double kFinishingStep = 3e-4;
+constexpr double kFinishingStep = 1e-2;
 constexpr int kFinishingSteps = 20;
 /// Mean |μ| from which on a chart is inaccurate.
 constexpr double kInaccurateChart = 0.03;
@@ -302,16 +302,13 @@ struct ExtremalSolver::Implementation {
 
     /// Of the map, or of the one before it was evened out: evening makes the bounds, as a rule, a little worse.
     SolutionBounds best_bounds(const Distortion& measured) const {
-        const auto lower = [](const ReichStrebel& integrals) { return integrals.valid ? integrals.lower : 1; };
-        const ReichStrebel integrals = integrals_of(measured, step);
-        if (before_evening) {
+        if (before_evening && before_evening->step.merit >= step.merit) {
             const auto& [earlier_map, earlier_step] = *before_evening;
             const Distortion earlier = distortion(source.operators, earlier_map);
-            const ReichStrebel earlier_integrals = integrals_of(earlier, earlier_step);
-            if (lower(earlier_integrals) >= lower(integrals))
-                return bounds_of(earlier_map, earlier_step, earlier, earlier_integrals);
+            const ReichStrebel integrals = integrals_of(earlier, earlier_step);
+            if (integrals.valid) return bounds_of(earlier_map, earlier_step, earlier, integrals);
         }
-        return bounds_of(map, step, measured, integrals);
+        return bounds_of(map, step, measured, integrals_of(measured, step));
     }
 
     ExtremalMap record() const;
@@ -353,6 +350,7 @@ ExtremalMap ExtremalSolver::solve() {
         rough.tolerance = std::max(rough.tolerance, kRoughTolerance);
         rough.k_tolerance = std::max(rough.k_tolerance, kRoughTolerance * kRoughTolerance);
         rough.max_iterations = std::min(rough.max_iterations, kRoughIterations);
+        rough.step_below_change = kRoughStep;
         rough.grow_last = false;
         m.problem.coefficient_step().set_least_rounding(kRoughRounding);
         m.iterate(rough);
