@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <stdexcept>
 
 #include <beltrami/mesh/parallel.h>
 
@@ -48,11 +49,14 @@ SampledSpace::SampledSpace(const Chart& chart, const Singularities& singularitie
 
 void SampledSpace::set(const DifferentialSpace& space) {
     space_ = &space;
-    mode_ = large_.value_or(space.quick() ? Mode::afresh : Mode::dense);
+    mode_ = space.tabulated() ? Mode::dense : large_.value_or(space.quick() ? Mode::afresh : Mode::dense);
     values_ = {};
     if (mode_ == Mode::afresh) return;
     if (mode_ == Mode::dense) {
-        Eigen::MatrixXcd values = space.generators({chart_.positions, chart_.derivatives});
+        Eigen::MatrixXcd values =
+            space.tabulated() ? *space.tabulated() : space.generators({chart_.positions, chart_.derivatives});
+        if (values.rows() != static_cast<Eigen::Index>(chart_.excluded.size()))
+            throw std::logic_error("SampledSpace: a tabulated space of other samples");
         for (Eigen::Index s = 0; s < values.rows(); ++s)
             if (chart_.excluded[s]) values.row(s).setZero();
         values_ = SplitMatrix(values);

@@ -42,7 +42,9 @@ CoefficientStep::CoefficientStep(const Surface& source, const Chart& chart, cons
 void CoefficientStep::set_space(const DifferentialSpace& space) {
     sampled_.set(space);
     last_coefficients_.resize(0);
-    problem_.basis = space.evaluate(clusters_.points);
+    problem_.basis = space.tabulated() ? means_over_clusters(*space.tabulated(), clusters_, chart_)
+                                       : space.evaluate(clusters_.points);
+    if (space.tabulated() && space.transform()) problem_.basis = complex_product(problem_.basis, *space.transform());
     problem_.complex_coefficients = space.complex_coefficients();
 }
 

@@ -177,8 +177,8 @@ class TiltedNorm {
         while (end.steps < max_steps) {
             const Eigen::VectorXd slope_by = gradient(phi) + tilt;
             const Eigen::VectorXd direction = newton_step(slope_by, phi, reach);
-            const double slope = slope_by.dot(direction), scale = std::abs(value);
             if (direction.size() == 0) break;
+            const double slope = slope_by.dot(direction), scale = std::abs(value);
             if (!(slope < -kGradientTolerance * kGradientTolerance * scale)) {
                 end.converged = slope > -kGradientTolerance * scale;
                 break;
@@ -263,7 +263,11 @@ DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& star
     const double total = problem.weights.sum();
     const double delta = total > 0 ? problem.rounding * problem.weights.dot(coarse_phi.cwiseAbs()) / total : 0.0;
     const TiltedNorm coarse(problem, view, p, delta);
-    if (!options.norm) {
+    if (x.size() == 1) {  // the hyperplane of a single real function is a point
+        solution.converged = true;
+        solution.phi = fine.values(view.unpack(x));
+        solution.norm = fine.norm(solution.phi, delta);
+    } else if (!options.norm) {
         const TiltedNorm::End end =
             coarse.descend(x, coarse_phi, Eigen::VectorXd::Zero(x.size()), options.step, 0, options.max_steps);
         solution.newton_steps = end.steps;
@@ -284,6 +288,7 @@ DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& star
                 coarse.descend(next, coarse_phi, tilt, options.step, kInnerFraction,
                                std::min(trusted ? kInnerSteps : 1, options.max_steps - solution.newton_steps));
             solution.newton_steps += end.steps;
+            if (end.steps == 0 && !end.converged) break;
             const Eigen::VectorXd direction = next - x;
             const double slope = gradient.dot(direction);
             if (!(slope < -kGradientTolerance * kGradientTolerance * norm)) {
@@ -342,7 +347,7 @@ SampleClusters cluster_samples(const Operators& operators, const Chart& chart, c
         ++included;
     }
     int clusters = 0;
-    if (included <= target_count) {
+    if (included <= target_count || chart.positions.size() == 0) {
         result.cluster.assign(samples, -1);
         for (int s = 0; s < samples; ++s)
             if (!chart.excluded[s]) result.cluster[s] = clusters++;
@@ -358,11 +363,27 @@ SampleClusters cluster_samples(const Operators& operators, const Chart& chart, c
     Eigen::VectorXd mass = Eigen::VectorXd::Zero(clusters);
     for (int s = 0; s < samples; ++s) {
         if (chart.excluded[s]) continue;
-        result.points.positions[result.cluster[s]] += result.squared[s] * chart.positions[s];
+        if (chart.positions.size())
+            result.points.positions[result.cluster[s]] += result.squared[s] * chart.positions[s];
         mass[result.cluster[s]] += result.squared[s];
     }
     for (int q = 0; q < clusters; ++q) result.points.positions[q] /= mass[q];
     return result;
+}
+
+Eigen::MatrixXcd means_over_clusters(const Eigen::MatrixXcd& values, const SampleClusters& clusters,
+                                     const Chart& chart) {
+    const Eigen::Index count = clusters.points.positions.size();
+    Eigen::MatrixXcd means = Eigen::MatrixXcd::Zero(count, values.cols());
+    Eigen::VectorXd mass = Eigen::VectorXd::Zero(count);
+    for (Eigen::Index s = 0; s < values.rows(); ++s) {
+        const int q = clusters.cluster[s];
+        if (q < 0) continue;
+        mass[q] += clusters.squared[s];
+        means.row(q) += clusters.squared[s] / (chart.derivatives[s] * chart.derivatives[s]) * values.row(s);
+    }
+    for (Eigen::Index q = 0; q < count; ++q) means.row(q) /= mass[q];
+    return means;
 }
 
 }  // namespace beltrami
