@@ -46,6 +46,10 @@ Eigen::VectorXd pack(const Eigen::VectorXcd& direction, double k) {
 
 }  // namespace
 
+double bracket(const CoefficientStep::Result& step) {
+    return (1 + step.k) / ((1 - step.k) * step.merit) - 1;
+}
+
 Eigen::VectorXcd teichmueller_coefficient(double k, const Eigen::VectorXcd& phi) {
     Eigen::VectorXcd nu(phi.size());
     for (Eigen::Index s = 0; s < phi.size(); ++s) {
@@ -140,7 +144,7 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
         }
         const bool stalled = least_change < kStalledBelow && since_least >= kStalledFor && k_change < kStalledChangeOfK;
         // Where the data hardly tell two φ apart, φ wanders while k stays and the bound is as near as it will come.
-        const double gap = (1 + step_.k) / ((1 - step_.k) * step_.merit) - 1;
+        const double gap = bracket(step_);
         quiet = change > kQuietAbove && k_change < kQuietChangeOfK ? quiet + 1 : 0;
         const bool undecided = quiet >= kQuietFor && gap < kQuietGap && !state.space->preliminary();
         const bool settled =

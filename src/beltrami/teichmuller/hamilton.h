@@ -69,6 +69,9 @@ class HamiltonIteration {
     bool converged_ = false;
 };
 
+/// Width of the bracket between the k of a c-step and its Reich-Strebel bound, as part of K.
+double bracket(const CoefficientStep::Result& step);
+
 /// ν = k conj(φ)/|φ|, 0 where φ says nothing.
 Eigen::VectorXcd teichmueller_coefficient(double k, const Eigen::VectorXcd& phi);
 
