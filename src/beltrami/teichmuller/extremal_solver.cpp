@@ -297,10 +297,10 @@ struct ExtremalSolver::Implementation {
             k = step.k;
             return true;
         };
-        EvenDilatation evened = even_dilatation(source, held(), map, step.k, step.phi, update);
-        other_factorizations += evened.factorizations;
-        if (!evened.improved) return false;
-        map = std::move(evened.map);
+        EvenDilatation even = even_dilatation(source, held(), map, step.k, step.phi, update);
+        other_factorizations += even.factorizations;
+        if (!even.improved) return false;
+        map = std::move(even.map);
         return true;
     }
 
