@@ -35,6 +35,9 @@ constexpr double kInnerFraction = 0.15;
 constexpr double kTrusted = 0.3;
 /// The change that a second look is expected to make, as part of the first.
 constexpr double kFirstRate = 0.2;
+/// Gradients are exact where the norm is flat to rounding: so many rounds more, down to such a change.
+constexpr int kFlatRounds = 3;
+constexpr double kExact = 1e-11;
 /// Rows of the Hessian's product that a thread takes at once.
 constexpr int kHessianRows = 512;
 
@@ -166,13 +169,14 @@ class TiltedNorm {
     };
     /// Newton's method with backtracking from @p x.
     /// @param phi       of x at the points; moves with it
+    /// @param first_reach by what part of itself φ is expected to move
     /// @param step      it ends after a step shorter than this part of x
     /// @param fraction  … or than this part of the way made so far
-    End descend(Eigen::VectorXd& x, Eigen::VectorXcd& phi, const Eigen::VectorXd& tilt, double step, double fraction,
-                int max_steps) const {
+    End descend(Eigen::VectorXd& x, Eigen::VectorXcd& phi, const Eigen::VectorXd& tilt, double first_reach, double step,
+                double fraction, int max_steps) const {
         End end;
         const Eigen::VectorXd start = x;
-        Eigen::VectorXd reach = kFirstReach * phi.cwiseAbs();
+        Eigen::VectorXd reach = first_reach * phi.cwiseAbs();
         double value = problem_.weights.dot(sizes_of(phi, delta_)) + tilt.dot(x);
         while (end.steps < max_steps) {
             const Eigen::VectorXd slope_by = gradient(phi) + tilt;
@@ -184,13 +188,15 @@ class TiltedNorm {
                 break;
             }
             const Eigen::VectorXcd phi_step = problem_.basis * view_.unpack(direction);
+            // At the level of rounding no step need descend.
+            const bool flat = -slope < kGradientTolerance * scale;
             double length = 1;
             bool accepted = false;
             for (int halving = 0; halving < kHalvings && !accepted; ++halving) {
                 const Eigen::VectorXcd trial = phi + length * phi_step;
                 const double trial_value =
                     problem_.weights.dot(sizes_of(trial, delta_)) + tilt.dot(x) + length * tilt.dot(direction);
-                accepted = trial_value <= value + kDescent * length * slope;
+                accepted = trial_value <= value + (flat ? kGradientTolerance * scale : kDescent * length * slope);
                 if (accepted) {
                     phi = trial;
                     value = trial_value;
@@ -198,7 +204,6 @@ class TiltedNorm {
                     length *= 0.5;
                 }
             }
-            const bool flat = -slope < kGradientTolerance * scale;  // at the level of rounding no step need descend
             if (accepted) {
                 x += length * direction;
                 reach = kReach * length * phi_step.cwiseAbs();
@@ -268,8 +273,8 @@ DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& star
         solution.phi = fine.values(view.unpack(x));
         solution.norm = fine.norm(solution.phi, delta);
     } else if (!options.norm) {
-        const TiltedNorm::End end =
-            coarse.descend(x, coarse_phi, Eigen::VectorXd::Zero(x.size()), options.step, 0, options.max_steps);
+        const TiltedNorm::End end = coarse.descend(x, coarse_phi, Eigen::VectorXd::Zero(x.size()), kFirstReach,
+                                                   options.step, 0, options.max_steps);
         solution.newton_steps = end.steps;
         solution.converged = end.converged;
         solution.phi = std::move(coarse_phi);
@@ -280,13 +285,14 @@ DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& star
         Eigen::VectorXcd phi = fine.values(view.unpack(x));
         double norm = fine.norm(phi, delta), last_moved = 0;
         bool trusted = true;
+        int flat_rounds = 0;
         for (int round = 0; solution.newton_steps < options.max_steps; ++round) {
             const Eigen::VectorXd gradient = view.covector(fine.gradient(phi, delta));
             const Eigen::VectorXd tilt = gradient - coarse.gradient(coarse_phi);
             Eigen::VectorXd next = x;
-            const TiltedNorm::End end =
-                coarse.descend(next, coarse_phi, tilt, options.step, kInnerFraction,
-                               std::min(trusted ? kInnerSteps : 1, options.max_steps - solution.newton_steps));
+            const TiltedNorm::End end = coarse.descend(
+                next, coarse_phi, tilt, round == 0 ? kFirstReach : std::min(kFirstReach, last_moved), options.step,
+                kInnerFraction, std::min(trusted ? kInnerSteps : 1, options.max_steps - solution.newton_steps));
             solution.newton_steps += end.steps;
             if (end.steps == 0 && !end.converged) break;
             const Eigen::VectorXd direction = next - x;
@@ -295,6 +301,8 @@ DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& star
                 solution.converged = slope > -kGradientTolerance * norm;
                 break;
             }
+            const bool flat = -slope < kGradientTolerance * norm;
+            flat_rounds += flat;
             const Eigen::VectorXcd phi_next = fine.values(view.unpack(next));
             double length = 1;
             bool accepted = false;
@@ -302,7 +310,7 @@ DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& star
                 const Eigen::VectorXcd trial =
                     length < 1 ? Eigen::VectorXcd(phi + length * (phi_next - phi)) : phi_next;
                 const double trial_norm = fine.norm(trial, delta);
-                accepted = trial_norm <= norm + kDescent * length * slope;
+                accepted = trial_norm <= norm + (flat ? kGradientTolerance * norm : kDescent * length * slope);
                 if (accepted) {
                     phi = trial;
                     norm = trial_norm;
@@ -319,7 +327,7 @@ DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& star
             // Functions that the coarse norm hardly sees lead it astray: then step by step.
             const bool whole = length > kTrusted;
             trusted = trusted && whole;
-            if (-slope < kGradientTolerance * norm || (accepted && whole && rest < options.step)) {
+            if (flat_rounds > kFlatRounds || (accepted && whole && rest < std::max(options.step, kExact))) {
                 solution.converged = true;
                 break;
             }

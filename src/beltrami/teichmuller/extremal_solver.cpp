@@ -50,9 +50,9 @@ constexpr double kUnevenAtSingularities = 0.02, kUneven = 0.1, kUnevenAtAll = 2e
 /// steps.
 constexpr double kRoughTolerance = 0.03;
 constexpr int kRoughIterations = 16;
-constexpr double kRoughRounding = 0.005, kRoughStep = 0.2;
+constexpr double kRoughRounding = 0.005, kRoughStep = 0.05;
 /// Newton step, as part of the whole, to which the c-step is solved after the iteration.
-constexpr double kFinishingStep = 1e-2;
+constexpr double kFinishingStep = 2e-3;
 constexpr int kFinishingSteps = 20;
 /// Mean |μ| from which on a chart is inaccurate.
 constexpr double kInaccurateChart = 0.03;
