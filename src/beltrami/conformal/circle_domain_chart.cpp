@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <string>
 
 #include <beltrami/conformal/circle_fit.h>
@@ -16,6 +17,8 @@ namespace {
 
 /// Rims of a start are made as round as that by an analytic map: sliding does the rest.
 constexpr double kStartRatio = 1.02;
+/// Rims of files with few digits count as circles.
+constexpr double kRound = 1e-6;
 
 std::vector<Complex> rim_points(const Surface& source, int loop, const Eigen::VectorXcd& z) {
     std::vector<Complex> points;
@@ -45,6 +48,35 @@ double roundness(const Surface& source, const Chart& chart, const std::vector<Ro
     for (const RoundHole& hole : holes)
         largest = std::max(largest, distance_from(hole, rim_points(source, hole.loop, chart.vertices)));
     return largest;
+}
+
+/// Whether every rim misses its circle by less than that part of the longest edge's distance from the arc.
+bool round_enough(const Surface& source, const Chart& chart, const std::vector<RoundHole>& holes, double part) {
+    return std::all_of(holes.begin(), holes.end(), [&](const RoundHole& hole) {
+        const std::vector<Complex> rim = rim_points(source, hole.loop, chart.vertices);
+        double longest = 0;
+        for (std::size_t i = 0; i < rim.size(); ++i)
+            longest = std::max(longest, std::abs(rim[(i + 1) % rim.size()] - rim[i]) / hole.radius);
+        return distance_from(hole, rim) <= std::max(kRound, part * longest * longest / 8);
+    });
+}
+
+/// The exact chart with rims as round as can be and their circles, if they are round enough.
+bool keep_exact(const Surface& source, const CircleDomainOptions& options, CircleDomainChart& result) {
+    std::vector<RoundHole> holes = fitted_holes(source, result.chart);
+    if (!round_enough(source, result.chart, holes, 0)) {
+        if (options.exact_part == 0) return false;
+        DomainChartOptions rounder;
+        rounder.round_from = options.rounding.wanted_ratio;
+        rounder.rounding = options.rounding;
+        Chart chart = domain_chart(source, result.chart.outer_loop, nullptr, rounder);
+        holes = fitted_holes(source, chart);
+        if (!round_enough(source, chart, holes, options.exact_part)) return false;
+        result.chart = std::move(chart);
+    }
+    result.roundness = roundness(source, result.chart, holes);
+    result.holes = std::move(holes);
+    return true;
 }
 
 /// Vertices of rims that are nearly round, onto their circles.
@@ -115,6 +147,14 @@ void measure(const Surface& source, CircleDomainChart& result) {
                     "refine the mesh near them", faces);
 }
 
+[[noreturn]] void too_close(const CircleDomainOptions& options) {
+    std::ostringstream gap;
+    gap << options.least_gap;
+    throw Error(Cause::not_solved,
+                "two circles of the circle domain come closer than " + gap.str() + " of the smaller one's radius",
+                "the surface has loops that nearly touch: allow a smaller least_gap, or cut it so that they are one");
+}
+
 void slide(const Surface& source, const CircleDomainOptions& options, CircleDomainChart& result) {
     std::vector<RoundHole> holes;
     for (const Chart::Hole& hole : result.chart.holes) {
@@ -126,11 +166,7 @@ void slide(const Surface& source, const CircleDomainOptions& options, CircleDoma
     CircleSlide map = put_on_circles(source, dirichlet, result.chart.outer_loop, result.chart.vertices, holes);
     slide_on_circles(source, dirichlet, result.chart.outer_loop, map,
                      {options.max_steps, options.tolerance, options.least_gap});
-    if (map.too_close)
-        throw Error(Cause::not_solved,
-                    "two circles of the circle domain come closer than " + std::to_string(options.least_gap) +
-                        " of the smaller one's radius",
-                    "the surface has loops that nearly touch: allow a smaller least_gap, or join the loops");
+    if (map.too_close) too_close(options);
     result.steps = map.steps;
     result.converged = map.converged;
     result.harmonic_solves = map.products;
@@ -146,7 +182,7 @@ void slide(const Surface& source, const CircleDomainOptions& options, CircleDoma
 void CircleDomainOptions::validate() const {
     if (max_steps < 0) throw Error(Cause::bad_option, "max_steps is negative", "give 0 or more");
     if (!(tolerance > 0)) throw Error(Cause::bad_option, "the tolerance is not positive", "give about 1e-7");
-    if (!(exact_roundness >= 0)) throw Error(Cause::bad_option, "exact_roundness is negative", "give 0 or more");
+    if (!(exact_part >= 0)) throw Error(Cause::bad_option, "exact_part is negative", "give 0 or more");
     if (!(least_gap > 0)) throw Error(Cause::bad_option, "least_gap is not positive", "give about 1e-3");
 }
 
@@ -160,30 +196,10 @@ CircleDomainChart circle_domain_chart(const Surface& source, int outer_loop, con
     options.validate();
     CircleDomainChart result;
     DomainChartOptions start;
-    start.round_from = kStartRatio;
-    start.rounding = options.rounding;
-    start.rounding.wanted_ratio = std::max(options.rounding.wanted_ratio, kStartRatio);
+    start.round_from = start.rounding.wanted_ratio = kStartRatio;
     result.chart = domain_chart(source, outer_loop, nullptr, start);
-    if (result.chart.exact) {
-        std::vector<RoundHole> holes = fitted_holes(source, result.chart);
-        double off = roundness(source, result.chart, holes);
-        if (off > options.exact_roundness) {  // further, since nothing is lost but a little time
-            start.round_from = options.rounding.wanted_ratio;
-            start.rounding = options.rounding;
-            Chart rounder = domain_chart(source, outer_loop, nullptr, start);
-            const std::vector<RoundHole> fitted = fitted_holes(source, rounder);
-            if (const double now = roundness(source, rounder, fitted); now < off) {
-                result.chart = std::move(rounder);
-                holes = fitted;
-                off = now;
-            }
-        }
-        if (off <= options.exact_roundness) {
-            result.roundness = off;
-            result.holes = std::move(holes);
-        }
-    }
-    if (!result.chart.exact || result.holes.size() != result.chart.holes.size()) slide(source, options, result);
+    if (!(result.chart.exact && keep_exact(source, options, result))) slide(source, options, result);
+    if (least_gap(result.holes) < options.least_gap) too_close(options);
     snap(source, result.holes, result.chart);
     snap(source, {{result.chart.outer_loop, 0, 1}}, result.chart);
     result.chart.holes.clear();

@@ -11,11 +11,12 @@ namespace beltrami {
 struct CircleDomainOptions {
     int max_steps = 30;       ///< Newton steps of the sliding rims
     double tolerance = 1e-7;  ///< the last step is one that promises to lower the energy by less than this part
-    /// snap to their circles. Relative to the radius.
-    double exact_roundness = 1e-6;
+    /// An exact chart whose rims, made rounder by an analytic map, miss circles by no more than this part of the
+    /// distance between chord and arc is kept exact: the rims only snap to their circles. 0: none but round ones.
+    double exact_part = 0.1;
     /// Circles that come closer, relative to the radius of the smaller one, are refused.
     double least_gap = 1e-3;
-    HoleRoundingOptions rounding = {.wanted_ratio = 1 + 1e-6, .max_steps = 30, .terms = 16};
+    HoleRoundingOptions rounding = {.wanted_ratio = 1 + 1e-9, .max_steps = 15, .terms = 30};  ///< of exact charts
     /// @throw Error bad_option if a value is impossible
     void validate() const;
 };
@@ -53,7 +54,7 @@ struct CircleDomainChart {
 ///
 /// - A planar circle domain: domain_chart's similarity or Möbius map, exact.
 /// - Else domain_chart, its holes made rounder by an analytic map. A planar source with a round outer loop keeps an
-///   exact chart if the rims are as round as options.exact_roundness after that.
+///   exact chart if the rims are round enough after that (options.exact_part).
 /// - Else the rims snap to the nearest circles, the correction extended harmonically, and Newton steps lower the
 ///   conformal energy Σ A|∂̄f|² over all f whose rims lie on circles: every rim vertex slides along its circle,
 ///   the centre and radius of every hole are unknowns too, three vertices of the outer loop are held
