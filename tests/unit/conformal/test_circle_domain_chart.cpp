@@ -152,7 +152,7 @@ TEST(CircleDomainChart, OfAConformalImageHasTheModuliOfTheOriginalToSecondOrder)
 }
 
 TEST(CircleDomainChart, AnyLoopCanBeTheOuterOne) {
-    const Surface coarse(on_sphere(three_holes(0.05))), fine(on_sphere(three_holes(0.025)));
+    const Surface coarse(on_sphere(three_holes(0.05))), fine(on_sphere(three_holes(0.0125)));
     // A hole's chords lie outside the surface's own domain, the unit circle's inside: the errors of the two polygons,
     // about (π/25)² here, add up.
     for (int outer = 1; outer < 4; ++outer) {
@@ -160,7 +160,7 @@ TEST(CircleDomainChart, AnyLoopCanBeTheOuterOne) {
         check(coarse, a, outer);
         check(fine, b, outer);
         EXPECT_LT(moduli_error(a), 0.02);
-        EXPECT_LT(moduli_error(b), moduli_error(a) / 3.4);
+        EXPECT_LT(moduli_error(b), moduli_error(a) / 11);  // order 1.73 at least
     }
 }
 
