@@ -8,6 +8,7 @@
 #include <beltrami/conformal/circle_fit.h>
 #include <beltrami/conformal/circle_slide.h>
 #include <beltrami/conformal/hole_centre.h>
+#include <beltrami/maps/fold_free.h>
 #include <beltrami/mesh/error.h>
 #include <beltrami/operators/distortion.h>
 
@@ -135,16 +136,33 @@ void measure(const Surface& source, CircleDomainChart& result) {
     result.standard_deviation = map.standard_deviation;
     result.max_mu = map.max;
     result.flipped = map.flipped;
-    result.pinched = pinched_faces(source, result.chart.outer_loop);
-    if (!result.pinched.empty())
-        result.chart.warnings.push_back(std::to_string(result.pinched.size()) +
-                                        " faces have an inner edge between two vertices of one hole, which no circle "
-                                        "domain has room for; split those edges");
+}
+
+/// Unfolds the inside of the rims where faces came out turned over, if it can be done.
+void unfold(const Surface& source, CircleDomainChart& result) {
+    const std::size_t folded = unforced(source, result).size();
+    if (folded == 0) return;
+    std::vector<Freedom> freedom(source.mesh.vertex_count(), Freedom::fixed);
+    for (const int v : source.mesh.faces.vertices())
+        if (!source.topology.on_boundary[v]) freedom[v] = Freedom::free;
+    FoldFreeOptions options;
+    options.tolerance = 1e-3;
+    options.max_iterations = 200;
+    FoldFreeMap map = fold_free_map(source, freedom, Eigen::VectorXcd::Zero(source.operators.sample_count()),
+                                    result.chart.vertices, options);
+    Chart chart = make_chart(source, std::move(map.map), false);
+    chart.outer_loop = result.chart.outer_loop;
+    chart.holes = std::move(result.chart.holes);
+    chart.factorizations = result.chart.factorizations + map.factorizations;
+    result.chart = std::move(chart);
+    measure(source, result);
     if (const std::vector<int> faces = unforced(source, result); !faces.empty())
         throw Error(Cause::not_solved,
                     std::to_string(faces.size()) + " faces stay turned over in the circle domain, the first is face " +
                         std::to_string(faces[0]),
                     "refine the mesh near them", faces);
+    result.chart.warnings.push_back("the harmonic map turned " + std::to_string(folded) +
+                                    " faces over; they were unfolded, which costs conformality");
 }
 
 [[noreturn]] void too_close(const CircleDomainOptions& options) {
@@ -204,8 +222,14 @@ CircleDomainChart circle_domain_chart(const Surface& source, int outer_loop, con
     snap(source, {{result.chart.outer_loop, 0, 1}}, result.chart);
     result.chart.holes.clear();
     for (const RoundHole& hole : result.holes) result.chart.holes.push_back({hole.loop, hole.centre, hole.radius});
-    result.factorizations = result.chart.factorizations;
+    result.pinched = pinched_faces(source, outer_loop);
     measure(source, result);
+    unfold(source, result);
+    if (!result.pinched.empty())
+        result.chart.warnings.push_back(std::to_string(result.pinched.size()) +
+                                        " faces have an inner edge between two vertices of one hole, which no circle "
+                                        "domain has room for; split those edges");
+    result.factorizations = result.chart.factorizations;
     return result;
 }
 

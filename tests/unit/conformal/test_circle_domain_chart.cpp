@@ -318,6 +318,26 @@ TEST(CircleDomainChart, NamesFacesThatNoCircleDomainHasRoomFor) {
     EXPECT_FALSE(forced.flipped.empty());
 }
 
+TEST(CircleDomainChart, UnfoldsWhatTheHarmonicMapTurnsOver) {
+    // A star as the hole: the conformal map makes the bays between its tips exponentially small.
+    Polygon star;
+    for (int i = 0; i < 16; ++i) {
+        const double radius = i % 2 ? 1 : 0.25, angle = i * std::numbers::pi / 8;
+        star.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
+    }
+    DomainOptions options;
+    options.edge_length = 0.1;
+    options.hole_edge_length = 0.05;
+    const Surface source(polygon_domain({{-2, -2}, {2, -2}, {2, 2}, {-2, 2}}, {star}, options));
+    const CircleDomainChart chart = circle_domain_chart(source);
+    check(source, chart, 0);
+    EXPECT_TRUE(chart.pinched.empty());
+    const auto& warnings = chart.chart.warnings;
+    EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(),
+                            [](const std::string& w) { return w.find("unfolded") != std::string::npos; }));
+    EXPECT_LT(chart.mean_mu, 0.08);
+}
+
 TEST(CircleDomainChart, RefusesWhatHasNone) {
     const auto cause = [](const Surface& source, int outer, const CircleDomainOptions& options = {}) {
         try {
