@@ -50,7 +50,7 @@ struct CircleDomainChart {
 
 /// The conformal map of a surface of genus 0 with boundary, in the plane, in space or with a metric of its own, to the
 /// unit disk with round holes, @p outer_loop on the unit circle. Without holes: the round disk. It is unique up to
-/// Möbius maps of the disk; the source's area is centred nearly at 0 (exactly for what domain_chart centres).
+/// Möbius maps of the disk and normalised as domain_chart is, to discretisation where the rims slide.
 ///
 /// - A planar circle domain: domain_chart's similarity or Möbius map, exact.
 /// - Else domain_chart, its holes made rounder by an analytic map. A planar source with a round outer loop keeps an

@@ -15,6 +15,7 @@
 #include <beltrami/generate/sphere.h>
 #include <beltrami/io/read_mesh.h>
 #include <beltrami/mesh/error.h>
+#include <beltrami/mesh/parallel.h>
 #include <beltrami/operators/distortion.h>
 
 #include "support/meshes.h"
@@ -245,6 +246,17 @@ TEST(CircleDomainChart, DoesNotDependOnPlaceSizeOrNumbering) {
     const CircleDomainChart other = circle_domain_chart(Surface(renumbered));
     for (std::size_t i = 0; i < moduli(chart.holes).size(); ++i)
         EXPECT_NEAR(moduli(chart.holes)[i], moduli(other.holes)[i], 5e-4);  // other vertices are held
+}
+
+TEST(CircleDomainChart, IsTheSameForAnyNumberOfThreads) {
+    const Surface source(on_sphere(three_holes(0.025)));
+    const int before = thread_count();
+    set_thread_count(1);
+    const CircleDomainChart one = circle_domain_chart(source);
+    set_thread_count(3);
+    const CircleDomainChart three = circle_domain_chart(source);
+    set_thread_count(before);
+    EXPECT_EQ(one.chart.vertices, three.chart.vertices);
 }
 
 TEST(CircleDomainChart, ReadsQuadsAndAMetricOfItsOwn) {
