@@ -111,11 +111,9 @@ TEST_P(LaurentSpaces, HaveTheDimensionOfTheTheoryAndAreRealOnTheBoundary) {
     EXPECT_EQ(space.size(), GetParam().dimension);
     EXPECT_FALSE(space.complex_coefficients());
     EXPECT_EQ(space.refined(), nullptr);
-    EXPECT_LT(space.fit().residual, 1e-10);
+    EXPECT_LT(space.fit().residual, 1e-9);
     EXPECT_GT(space.fit().next, 1e-3);
-    EXPECT_LT(largest_imaginary_part(space, 397), 1e-8);
-    std::cout << GetParam().name << ": degree " << space.fit().degree << ", residual " << space.fit().residual
-              << ", next " << space.fit().next << ", at places " << largest_imaginary_part(space, 397) << '\n';
+    EXPECT_LT(largest_imaginary_part(space, 397), 2e-8);
 }
 
 INSTANTIATE_TEST_SUITE_P(Domains, LaurentSpaces,
@@ -158,7 +156,7 @@ TEST(LaurentSpace, OfAnEccentricRingIsThatOfTheRing) {
         const Complex w = points[i], z = (w - a) / (1.0 - a * w), slope = (1 - a * a) / ((1.0 - a * w) * (1.0 - a * w));
         exact[static_cast<Eigen::Index>(i)] = slope * slope / (z * z);
     }
-    EXPECT_LT(outside(space.evaluate(in_domain(points)), exact), 1e-10);
+    EXPECT_LT(outside(space.evaluate(in_domain(points)), exact), 1e-9);
 }
 
 TEST(LaurentSpace, OfADiskWithFourMarksIsTheirProduct) {
@@ -209,8 +207,6 @@ TEST(LaurentSpace, HolesThatNearlyTouchTakeMorePowers) {
         EXPECT_LT(space.fit().residual, gap < 0.01 ? 1e-4 : 1e-8);
         EXPECT_GE(space.fit().degree, last);
         last = space.fit().degree;
-        std::cout << gap << ": degree " << space.fit().degree << ", residual " << space.fit().residual << ", next "
-                  << space.fit().next << '\n';
     }
     EXPECT_GT(last, 16);
 }
