@@ -6,6 +6,7 @@
 
 #include <beltrami/differentials/dimension.h>
 #include <beltrami/differentials/laurent_space.h>
+#include <beltrami/differentials/sampled_space.h>
 #include <beltrami/mesh/error.h>
 
 namespace beltrami {
@@ -209,6 +210,26 @@ TEST(LaurentSpace, HolesThatNearlyTouchTakeMorePowers) {
         last = space.fit().degree;
     }
     EXPECT_GT(last, 16);
+}
+
+/// On large meshes functions are interpolated in cells, or evaluated afresh where marks ask for small ones.
+TEST(LaurentSpace, OnManySamplesItHasItsValues) {
+    for (const bool marked : {false, true}) {
+        const RoundDomain domain = marked ? with_marks(kTwo, {0.3, 2, 4}) : kTwo;
+        const LaurentSpace space(domain);
+        Chart chart;
+        const std::vector<Complex> points = inside(domain, 0.005, 1e-3);
+        chart.positions = in_domain(points).positions;
+        chart.derivatives = Eigen::VectorXcd::Constant(chart.positions.size(), {0.5, 1});
+        chart.excluded.assign(points.size(), 0);
+        ASSERT_GT(points.size(), 90'000u);
+        SampledSpace sampled(chart, domain.singularities(), 0.4);
+        sampled.set(space);
+        const Eigen::VectorXcd c = Eigen::VectorXd::LinSpaced(space.size(), -1, 2).cast<Complex>();
+        const Eigen::VectorXcd exact = space.combination({chart.positions, chart.derivatives}, c);
+        const Eigen::ArrayXd sizes = exact.cwiseAbs().array() + exact.cwiseAbs().mean();
+        EXPECT_LT(((sampled.combination(c) - exact).cwiseAbs().array() / sizes).maxCoeff(), 2e-3);
+    }
 }
 
 TEST(LaurentSpace, NothingIsLeftOnADiskWithThreeMarks) {
