@@ -297,10 +297,10 @@ struct ExtremalSolver::Implementation {
             k = step.k;
             return true;
         };
-        EvenDilatation evened = even_dilatation(source, held(), map, step.k, step.phi, update);
-        other_factorizations += evened.factorizations;
-        if (!evened.improved) return false;
-        map = std::move(evened.map);
+        EvenDilatation even = even_dilatation(source, held(), map, step.k, step.phi, update);
+        other_factorizations += even.factorizations;
+        if (!even.improved) return false;
+        map = std::move(even.map);
         return true;
     }
 
@@ -342,6 +342,9 @@ struct ExtremalSolver::Implementation {
 
     /// The iteration from where it stands, and what comes after it.
     void run();
+
+    /// Whether singularities that were thought needless are needed after all.
+    bool needs_poles() const { return withheld && bracket(step) > kPolesNeeded; }
 
     /// Lets φ have its singularities after all.
     void take_poles() {
@@ -409,7 +412,7 @@ ExtremalMap ExtremalSolver::solve() {
 void ExtremalSolver::Implementation::run() {
     using Evening = ExtremalOptions::Evening;
     evened = false;
-    if (problem.singular() && options.evening != Evening::never) {
+    if ((problem.singular() || withheld) && options.evening != Evening::never) {
         // Evening out moves φ more than the last digits of the iteration do.
         HamiltonIteration::Options rough = iteration_options(options);
         rough.tolerance = std::max(rough.tolerance, kRoughTolerance);
@@ -420,13 +423,13 @@ void ExtremalSolver::Implementation::run() {
         problem.coefficient_step().set_least_rounding(kRoughRounding);
         iterate(rough);
         problem.coefficient_step().set_least_rounding(0);
-        evened = converged && uneven() && even_out();
+        evened = converged && !needs_poles() && uneven() && even_out();
     }
     if (!evened) {
         HamiltonIteration::Options rest = iteration_options(options);
         rest.max_iterations -= std::max(0, static_cast<int>(history.size()) - 1);
         if (rest.max_iterations > 0) iterate(rest);
-        if (withheld && bracket(step) > kPolesNeeded) {
+        if (needs_poles()) {
             take_poles();
             return run();
         }
