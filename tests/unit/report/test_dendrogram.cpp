@@ -29,8 +29,8 @@ TEST(Dendrogram, HasEveryNameEveryDistanceAndEveryJoin) {
     for (std::size_t at = svg.find("fill=\"none\""); at != std::string::npos; at = svg.find("fill=\"none\"", at + 1))
         ++joins;
     EXPECT_EQ(joins, 3u);
-    EXPECT_EQ(svg, render_dendrogram({"a<b", "second", "third", "fourth"}, distances(),
-                                     cluster_by_distance(distances())));
+    EXPECT_EQ(svg,
+              render_dendrogram({"a<b", "second", "third", "fourth"}, distances(), cluster_by_distance(distances())));
 }
 
 }  // namespace
