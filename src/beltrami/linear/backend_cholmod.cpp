@@ -1,5 +1,3 @@
-#if BELTRAMI_SUITESPARSE
-
 #include <cholmod.h>
 #include <dlfcn.h>
 #include <complex>
@@ -263,5 +261,3 @@ std::unique_ptr<CholeskyBackend> make_backend(const CholeskyBackend::Matrix& low
 
 }  // namespace detail
 }  // namespace beltrami
-
-#endif
