@@ -1,7 +1,5 @@
 #pragma once
 
-#include <limits>
-
 #include <beltrami/maps/beltrami_solver.h>
 
 namespace beltrami {
@@ -38,7 +36,6 @@ class FixedMapStep final : public MapStep {
     BeltramiSolver& solver_;
     Eigen::VectorXcd prescribed_, directions_;
     bool near_ = false;
-    double given_up_at_ = std::numeric_limits<double>::infinity();  ///< tolerance at which near_ was not near enough
 };
 
 }  // namespace beltrami

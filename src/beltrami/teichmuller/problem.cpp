@@ -64,13 +64,10 @@ ExtremalProblem::ExtremalProblem(const Surface& source, const BoundaryCondition&
     map_step_.solve(Eigen::VectorXcd::Zero(source.operators.sample_count()), harmonic_, 0);
 }
 
-void ExtremalProblem::set_chart(Chart chart) {
+void ExtremalProblem::set_chart(Chart chart, Singularities singularities, int cluster_count) {
     chart_ = std::move(chart);
-    phase_ = phase_of(chart_, boundary_);
-}
-
-void ExtremalProblem::set_singularities(Singularities singularities, int cluster_count) {
     singularities_ = std::move(singularities);
+    phase_ = phase_of(chart_, boundary_);
     coefficient_step_.emplace(source_, chart_, singularities_, phase_, cluster_count);
 }
 
