@@ -6,6 +6,9 @@
 #include <beltrami/baselines/baseline.h>
 #include <beltrami/baselines/t_map_scheme.h>
 #include <beltrami/conformal/boundary_values.h>
+#include <beltrami/conformal/chart_places.h>
+#include <beltrami/conformal/circle_domain_chart.h>
+#include <beltrami/conformal/circle_matching.h>
 #include <beltrami/conformal/domain_chart.h>
 #include <beltrami/conformal/fill_holes.h>
 #include <beltrami/conformal/flatten.h>

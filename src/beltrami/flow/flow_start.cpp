@@ -6,7 +6,6 @@
 #include <string>
 
 #include <beltrami/mesh/error.h>
-#include <beltrami/teichmuller/sliding_loops.h>
 
 namespace beltrami {
 
@@ -43,7 +42,7 @@ SlidingStart flow_start(const Surface& source, const TargetDomain& target, const
     const auto model = target_model(target, edge_length_for(source, target, options.target_edge_length));
     SlidingStart start = sliding_start(source, chart, *model, options);
     start.factorizations += chart.factorizations + model->factorizations();
-    hold_what_conformal_maps_move(source, start.loops, options.outer_loop);
+    hold_what_conformal_maps_move(start.loops, options.outer_loop, options.marks.size());
     return start;
 }
 
@@ -96,7 +95,8 @@ SlidingStart flow_start(const Surface& source, const TargetDomain& target, const
         }
         start.loops.push_back(std::move(sliding));
     }
-    hold_what_conformal_maps_move(source, start.loops, loop_of_curve[0]);
+    hold_what_conformal_maps_move(start.loops, loop_of_curve[0],
+                                  static_cast<std::size_t>(std::count(is_held.begin(), is_held.end(), 1)));
     start.flips = static_cast<int>(distortion(source.operators, start.map).flipped.size());
     return start;
 }

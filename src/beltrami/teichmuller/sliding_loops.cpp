@@ -1,8 +1,5 @@
 #include <beltrami/teichmuller/sliding_loops.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <string>
 
 #include <beltrami/mesh/error.h>
@@ -24,34 +21,6 @@ double enclosed_area(const std::vector<int>& loop, const Eigen::VectorXcd& map) 
 }
 
 }  // namespace
-
-void hold_what_conformal_maps_move(const Surface& source, std::vector<SlidingLoop>& loops, int outer) {
-    const std::size_t holes = loops.size() - 1;
-    const std::size_t free = holes == 0 ? 3 : holes == 1 ? 1 : 0;
-    std::size_t held = 0;
-    for (const SlidingLoop& sliding : loops)
-        held += static_cast<std::size_t>(std::count(sliding.held.begin(), sliding.held.end(), 1));
-    if (held >= free) return;
-    for (SlidingLoop& sliding : loops) {
-        if (sliding.loop != outer) continue;
-        // Places that share the curve evenly with those that are held.
-        const std::size_t n = source.topology.boundary_loops[outer].size();
-        for (std::size_t more = held; more < free; ++more) {
-            std::size_t best = 0;
-            double farthest = -1;
-            for (std::size_t i = 0; i < n; ++i) {
-                double nearest = std::numeric_limits<double>::infinity();
-                for (std::size_t j = 0; j < n; ++j)
-                    if (sliding.held[j])
-                        nearest =
-                            std::min(nearest, std::abs(std::remainder(sliding.parameters[i] - sliding.parameters[j],
-                                                                      sliding.curve.length())));
-                if (nearest > farthest * (1 + 1e-9)) farthest = nearest, best = i;
-            }
-            sliding.held[best] = 1;
-        }
-    }
-}
 
 std::vector<LoopOnto> loops_onto(const Surface& source, const SlidingBoundary& boundary, const std::vector<int>& curves,
                                  const Eigen::VectorXcd& map) {
