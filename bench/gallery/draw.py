@@ -248,7 +248,10 @@ def draw_curves(axes, panel, load):
         axes.yaxis.set_major_formatter(ticker.FormatStrFormatter("%g"))
         axes.yaxis.set_minor_formatter(ticker.NullFormatter())
     if any(entry["label"] for entry in panel["series"]):
-        axes.legend(fontsize=7, frameon=False, loc="upper left", bbox_to_anchor=(1.0, 1.0))
+        if panel["logarithmic"]:
+            axes.legend(fontsize=7, frameon=False, loc="upper left", bbox_to_anchor=(1.0, 1.0))
+        else:
+            axes.legend(fontsize=7, frameon=False)
 
 
 def rasterise(screen, depth, triangles, pixels):

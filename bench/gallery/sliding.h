@@ -49,7 +49,7 @@ std::vector<std::string> onto_row(const std::string& first, const Surface& sourc
 struct OntoExample {
     std::string name;  ///< of picture and row
     std::string caption;
-    int circles = 30;  ///< to the larger side
+    int circles = 26;  ///< to the larger side
     std::string known = "";
     std::vector<std::pair<Complex, Complex>> segments = {};
 

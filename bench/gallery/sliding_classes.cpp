@@ -2,6 +2,8 @@
 #include <beltrami/io/atomic_file.h>
 #include <beltrami/report/dendrogram.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -33,7 +35,7 @@ void changing_places(Output& output, Figure& figure) {
             std::vector<Waypoint>{{1, 1, Complex(0, 0.25 - 0.25 * sign)}, {1, 2, Complex(0, 0.25 + 0.25 * sign)}};
         const std::string way = sign > 0 ? "counter-clockwise" : "clockwise";
         const SolvedOnto solved =
-            OntoExample{"sliding_classes_" + way, "The upper holes change places, " + way, 30, "", segments}.run(
+            OntoExample{"sliding_classes_" + way, "The upper holes change places, " + way, 26, "", segments}.run(
                 output, figure, table, source, circles_target(to), options);
         if (solved) k.push_back(solved.all->k);
     }
@@ -48,9 +50,17 @@ void rotated_starts(Figure& figure) {
                 {}};
     const Surface source(disk_with_holes({{-0.4, 0.1, 0.2}, {0.35, 0, 0.25}}, 0.04));
     const TargetDomain target = circles_target({{-0.5, -0.2, 0.15}, {0.3, 0.3, 0.3}});
-    double plain = 0;
-    for (const std::vector<double>& turns :
-         {std::vector<double>{0, 0, 0}, {0, 0.5, -0.5}, {0, 1, 1}, {0, 1, -1}, {0, 2, 2}, {0, -2, 2}, {2, 0, 0}}) {
+    double plain = 0, farthest = 0;
+    std::string unsettled;
+    for (const std::vector<double>& turns : {std::vector<double>{0, 0, 0},
+                                             {0, 0.5, -0.5},
+                                             {0, 1, 1},
+                                             {0, 1, -1},
+                                             {0, 2, 2},
+                                             {0, -2, 2},
+                                             {0.5, 0, 0},
+                                             {1, 0, 0},
+                                             {2, 0, 0}}) {
         OntoOptions options = numbered(2);
         options.start_turns = turns;
         const SolvedOnto solved = solve_onto(source, target, options);
@@ -60,6 +70,12 @@ void rotated_starts(Figure& figure) {
             continue;
         }
         if (table.rows.empty()) plain = solved.all->k;
+        const bool settled = solved.all->termination == Termination::converged;
+        if (settled) {
+            farthest = std::max(farthest, std::abs(solved.all->k - plain));
+        } else {
+            unsettled += (unsettled.empty() ? "" : "; ") + name;
+        }
         table.rows.push_back(
             {name, number(solved.all->k, 8), number(std::abs(solved.all->k - plain), 8),
              number(solved.all->distortion.standard_deviation, 5), std::to_string(solved.all->start_flips),

@@ -43,7 +43,7 @@ Figure sliding_06(Output& output) {
             {0, 0, 0.12}, {0.5, 0.1, 0.1}, {0, 0.5, 0.14}, {-0.5, -0.05, 0.1}, {0.05, -0.5, 0.12}},
             to{{0.1, 0.05, 0.1}, {0.55, 0.25, 0.15}, {-0.15, 0.55, 0.1}, {-0.55, -0.15, 0.17}, {0, -0.55, 0.1}};
         const Surface source(disk_with_holes(from, kEdge));
-        OntoExample{"sliding_06", "Five holes", 34}.run(output, figure, table, source, circles_target(to), numbered(5));
+        OntoExample{"sliding_06", "Five holes", 26}.run(output, figure, table, source, circles_target(to), numbered(5));
         const Surface target(disk_with_holes(to, kEdge));
         table.rows.push_back(
             onto_row("Five holes, back", target, "", solve_onto(target, circles_target(from), numbered(5))));
@@ -51,7 +51,7 @@ Figure sliding_06(Output& output) {
     {
         const std::vector<Hole> from = nine_holes(0.12, 0.6, 0, 0.1, 0.1), to = nine_holes(0.2, 0.65, 0.2, 0.06, 0.14);
         const Surface source(disk_with_holes(from, kEdge));
-        OntoExample{"sliding_07", "Nine holes", 34}.run(output, figure, table, source, circles_target(to), numbered(9));
+        OntoExample{"sliding_07", "Nine holes", 26}.run(output, figure, table, source, circles_target(to), numbered(9));
         const Surface target(disk_with_holes(to, kEdge));
         table.rows.push_back(
             onto_row("Nine holes, back", target, "", solve_onto(target, circles_target(from), numbered(9))));
@@ -78,7 +78,7 @@ Figure sliding_08(Output& output) {
          target_domain(polar_spline(0, [](double t) { return 1.1 + 0.15 * std::cos(2 * t) + 0.1 * std::cos(5 * t); }),
                        {polar_spline({-0.5, -0.2}, [](double t) { return 0.18 + 0.06 * std::sin(3 * t); }),
                         polar_spline({0.4, 0.2}, [](double t) { return 0.3 + 0.06 * std::cos(4 * t); })}),
-         0.025);
+         0.015);
     both({"sliding_10", "Example 10: very different sizes"},
          circles_target({{-0.4, 0.05, 0.4}, {0.35, 0.3, 0.1}, {0.4, -0.4, 0.025}}),
          circles_target({{-0.45, 0, 0.3}, {0.45, 0.35, 0.025}, {0.35, -0.4, 0.25}}), kEdge);
@@ -87,9 +87,15 @@ Figure sliding_08(Output& output) {
          target_domain(TargetCurve::circle(0, 1),
                        {TargetCurve::polygon(regular_polygon({-0.45, 0.1}, 0.3, 4, 0.3)),
                         TargetCurve::polygon(regular_polygon({0.4, 0.4}, 0.22, 3, 0.5)),
-                        polar_spline({0.25, -0.45}, [](double t) { return 0.2 + 0.08 * std::cos(5 * t); })}),
-         kEdge);
+                        polar_spline({0.25, -0.45}, [](double t) { return 0.2 + 0.06 * std::cos(5 * t); })}),
+         0.015);
     figure.tables.push_back(std::move(table));
+    figure.remarks.push_back(
+        "There and back agree in k within their brackets. In Example 10 a hole of radius .1 becomes .025 and one of "
+        ".025 "
+        "becomes .25; beside the large hole |φ| is small, the map there hardly enters k, and |μ| stays below k: the "
+        "standard deviation is the largest of the page. Near corners and deep bays of the curves the triangles are too "
+        "coarse for the speed of the map along the boundary, and |μ| is off in the last two rows of them.");
     return figure;
 }
 

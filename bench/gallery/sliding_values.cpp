@@ -75,31 +75,28 @@ bool is_monotone(const Curve& curve) {
     return curve.y.back() - curve.y.front() < 2 * kPi;
 }
 
-/// Largest |μ| (and k) of the maps after 0, 1, 2, … iterations.
+/// Largest |μ| and its 99th percentile, 1 where faces are turned over, of the maps after some iterations.
 struct Energies {
-    Curve largest, k;
+    Curve largest, p99;
+    int settled = 0;  ///< iterations after which all had settled; 0: never
 };
 
-Energies energies(const std::string& label, const Surface& source, const TargetDomain& target, OntoOptions options,
-                  int iterations) {
+Energies energies(const std::string& label, const Surface& source, const TargetDomain& target, OntoOptions options) {
     Energies result{{label, {}, {}}, {label, {}, {}}};
+    const auto add = [&](int iterations, const Distortion& d) {
+        result.largest.x.push_back(iterations);
+        result.largest.y.push_back(std::min(1.0, d.max));
+        result.p99.x.push_back(iterations);
+        result.p99.y.push_back(std::min(1.0, d.p99));
+    };
     options.remove_folds = false;
-    for (int n = 1; n <= iterations; ++n) {
+    for (int n = 1; n <= 90 && result.settled == 0; n += n < 20 ? 1 : 5) {
         options.max_iterations = n;
         const SolvedOnto solved = solve_onto(source, target, options);
         if (!solved) continue;
-        if (n == 1) {
-            const Distortion start = distortion(source.operators, solved.all->start);
-            result.largest.x.push_back(0);
-            result.largest.y.push_back(std::min(1.0, start.max));
-            result.k.x.push_back(0);
-            result.k.y.push_back(start.p99);
-        }
-        result.largest.x.push_back(n);
-        result.largest.y.push_back(std::min(1.0, solved.all->distortion.max));
-        result.k.x.push_back(n);
-        result.k.y.push_back(solved.all->distortion.p99);
-        if (solved.all->termination == Termination::converged) break;
+        if (result.p99.x.empty()) add(0, distortion(source.operators, solved.all->start));
+        add(solved.all->iterations, solved.all->distortion);
+        if (solved.all->termination == Termination::converged) result.settled = solved.all->iterations;
     }
     return result;
 }
@@ -181,7 +178,7 @@ Figure sliding_04(Output& output) {
     const TargetDomain target = circles_target(kExample4Target);
     const OntoOptions options = numbered(3);
     Table table{"", onto_head("map"), {}};
-    const OntoExample example{"sliding_04", "Example 4", 34, "0.3758 ± 1e-4"};
+    const OntoExample example{"sliding_04", "Example 4", 26, "0.3758 ± 1e-4"};
     const SolvedOnto solved = example.run(output, figure, table, source, target, options);
     figure.tables.push_back(std::move(table));
     if (!solved) return figure;
@@ -198,15 +195,16 @@ Figure sliding_04(Output& output) {
     OntoOptions turned = options;
     turned.start_turns = {0, 2, -2, 1.5};
     const Surface coarse(disk_with_holes(kExample4Source, 2 * kEdge));
-    const Energies good = energies("even start", coarse, target, options, 30),
-                   bad = energies("holes turned by 2, −2 and 1.5 rad", coarse, target, turned, 30);
+    const Energies good = energies("even start", coarse, target, options),
+                   bad = energies("holes turned", coarse, target, turned);
     Picture picture{"sliding_04_curves",
-                    "Angles of boundary points about the centres of their circles, and the largest |μ| and the 99th "
-                    "percentile after every iteration (h = .04).",
+                    "Angles of boundary points about the centres of their circles; the largest |μ| and its 99th "
+                    "percentile after every iteration (h = .04; 1: faces are turned over), from circles that begin "
+                    "evenly and from holes turned by 2, −2 and 1.5 rad.",
                     {}};
     picture.panels.push_back(curves_panel(loops, "boundary correspondence", "angle, source", "angle, image", false));
     picture.panels.push_back(curves_panel({good.largest, bad.largest}, "largest |μ|", "iterations", "max |μ|", false));
-    picture.panels.push_back(curves_panel({good.k, bad.k}, "99th percentile of |μ|", "iterations", "p99", false));
+    picture.panels.push_back(curves_panel({good.p99, bad.p99}, "99th percentile of |μ|", "iterations", "p99", false));
     figure.pictures.push_back(std::move(picture));
     figure.remarks.push_back(
         "The paper's 0.53 is not the extremal value: ours is lower, the bracket leaves no room for a larger one, and "
@@ -215,10 +213,13 @@ Figure sliding_04(Output& output) {
     figure.remarks.push_back(
         std::string("Boundary correspondence: ") +
         (monotone ? "all four are strictly monotone and run around once." : "NOT all are monotone.") +
-        " From the turned start the largest |μ| begins at " + number(bad.largest.y[0], 3) + " and is " +
-        number(bad.largest.y.back(), 4) + " after " + std::to_string(static_cast<int>(bad.largest.x.back())) +
-        " iterations; from the even start " + number(good.largest.y[0], 3) + " and " +
-        number(good.largest.y.back(), 4) + " after " + std::to_string(static_cast<int>(good.largest.x.back())) + ".");
+        " The largest |μ| is " + number(good.largest.y[0], 3) + " at the even start and " +
+        number(good.largest.y.back(), 3) + " in the end, after " + std::to_string(good.settled) +
+        " iterations at which everything has settled to 1e-8; from the turned holes " + number(bad.largest.y[0], 3) +
+        " and " + number(bad.largest.y.back(), 3) +
+        (bad.settled ? ", after " + std::to_string(bad.settled) + " iterations."
+                     : ", and it has not settled after " + std::to_string(static_cast<int>(bad.largest.x.back())) +
+                           " iterations."));
     return figure;
 }
 
@@ -233,7 +234,7 @@ Figure sliding_05(Output& output) {
     Curve std_curve{"std of |μ|", {}, {}}, width_curve{"width of the bracket", {}, {}},
         k_curve{"abs(k − .2708)", {}, {}};
     double last_std = 0, last_width = 0;
-    for (const double h : {0.16, 0.08, 0.04, 0.02, 0.01}) {
+    for (const double h : {0.08, 0.04, 0.02, 0.01}) {
         const Surface source(disk_with_holes(kExample5Source, h));
         const SolvedOnto solved = solve_onto(source, circles_target(kExample5Target), numbered(3));
         if (!solved) {
@@ -258,8 +259,8 @@ Figure sliding_05(Output& output) {
         if (h == kEdge) {
             const std::string data = write(output, "sliding_05", source, solved);
             Picture picture{"sliding_05", "Example 5.", {}};
-            picture.panels.push_back(circles_panel(data, "source", "source", 34));
-            picture.panels.push_back(circles_panel(data, "image", "image", 34));
+            picture.panels.push_back(circles_panel(data, "source", "source", 26));
+            picture.panels.push_back(circles_panel(data, "image", "image", 26));
             picture.panels.push_back(map_panel(data, "|μ|", 0.43));
             picture.panels.push_back(histogram_panel({{"", data}}, "", found.k, 0.43));
             figure.pictures.push_back(std::move(picture));
@@ -270,6 +271,17 @@ Figure sliding_05(Output& output) {
                                "Standard deviation of |μ|, width of the bracket of k and distance to the known k "
                                "(which is known to 5e-5) against h.",
                                {curves_panel({std_curve, width_curve, k_curve}, "", "h", "")}});
+    if (std_curve.y.size() > 1) {
+        const auto mean_order = [](const Curve& curve) {
+            return std::log(curve.y.front() / curve.y.back()) / std::log(curve.x.front() / curve.x.back());
+        };
+        figure.remarks.push_back(
+            "From the coarsest to the finest mesh the standard deviation falls like h^" +
+            number(mean_order(std_curve), 2) + " (the paper: 0.86), the width of the bracket like h^" +
+            number(mean_order(width_curve), 2) +
+            ". At h = .08 the 30 vertices of a hole make its edges shorter than 0.4 h, so the first orders are too "
+            "small. k is nearer to the known value than that is known from h = .04 on.");
+    }
     return figure;
 }
 
