@@ -4,7 +4,7 @@
 A picture is a row of panels of one height: "map" (a planar mesh coloured by |mu|), "grid" (the image of a chessboard or
 of small circles of the source, or these on the source itself), "faces" (the image with the edges of its faces),
 "histogram", "curves", "surface" (a mesh in space with a chessboard or circles of the map's plane, with its edges, or
-coloured by |mu|) and "svg" (an SVG file, by chromium)."""
+coloured by |mu|). Or it is one "svg", an SVG file as chromium shows it."""
 import io
 import json
 import re
@@ -138,11 +138,6 @@ def draw_faces(axes, panel, load):
     frame(axes, data["plane"])
 
 
-def draw_svg(axes, panel, load):
-    axes.imshow(load(panel["data"]), interpolation="none")
-    axes.set_axis_off()
-
-
 def read_svg(path):
     """The picture of an SVG, at twice its size."""
     width, height = (float(x) for x in re.search(r'width="([0-9.]+)"[^>]*height="([0-9.]+)"', path.read_text()).groups())
@@ -152,7 +147,7 @@ def read_svg(path):
                         "--force-device-scale-factor=2", f"--window-size={int(width)},{int(height)}",
                         f"--user-data-dir={folder}/profile", f"--screenshot={picture}", path.resolve().as_uri()],
                        check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=120)
-        return np.asarray(Image.open(picture).convert("RGB"))
+        return Image.open(picture).convert("RGB")
 
 
 def draw_grid(axes, panel, load):
@@ -355,12 +350,15 @@ def with_palette(image, palette):
     return result
 
 
-def save(figure, path, flat):
-    """A palette PNG of at most MOST_BYTES: fewer colours (where they are not fixed), then fewer pixels, until it fits."""
+def image_of(figure):
     buffer = io.BytesIO()
     figure.savefig(buffer, format="png", dpi=DPI)
     plt.close(figure)
-    full = Image.open(buffer).convert("RGB")
+    return Image.open(buffer).convert("RGB")
+
+
+def save(full, path, flat):
+    """A palette PNG of at most MOST_BYTES: fewer colours (where they are not fixed), then fewer pixels, until it fits."""
     left, top, right, bottom = ImageChops.difference(full, Image.new("RGB", full.size, "white")).getbbox()
     full = full.crop((max(left - 6, 0), max(top - 6, 0), min(right + 6, full.width), min(bottom + 6, full.height)))
     for scale in (1, 0.85, 0.7, 0.55, 0.4):
@@ -383,8 +381,6 @@ def shape(panel, load):
     if panel["kind"] in ("histogram", "curves"):
         return 1.15 if len(panel["series"]) < 6 else 2.0
     data = load(panel["data"])
-    if panel["kind"] == "svg":
-        return data.shape[1] / data.shape[0]
     if panel["kind"] == "surface":
         right, up, _ = view(panel)
         points = np.stack([data["space"] @ right, data["space"] @ up], 1)
@@ -399,7 +395,7 @@ def main():
     source, target = Path(sys.argv[1]), Path(sys.argv[2])
     target.mkdir(parents=True, exist_ok=True)
     draw = {"map": draw_map, "grid": draw_grid, "histogram": draw_histogram, "curves": draw_curves, "surface": draw_surface,
-            "faces": draw_faces, "svg": draw_svg}
+            "faces": draw_faces}
     for picture in json.loads((source / "pictures.json").read_text()):
         panels = picture["panels"]
         if not panels:
@@ -408,9 +404,13 @@ def main():
 
         def load(name):
             if name not in cache:
-                cache[name] = (read_svg if name.endswith(".svg") else read_ply)(source / name)
+                cache[name] = read_ply(source / name)
             return cache[name]
 
+        if [panel["kind"] for panel in panels] == ["svg"]:
+            save(read_svg(source / panels[0]["data"]), target / (picture["name"] + ".png"), False)
+            print(picture["name"])
+            continue
         # One row; each panel as wide as its content asks, all of one height.
         shapes = [shape(panel, load) for panel in panels]
         height = min(PANEL, WIDTH / sum(shapes))
@@ -428,7 +428,7 @@ def main():
             colours = matplotlib.cm.ScalarMappable(matplotlib.colors.Normalize(*scale), "viridis")
             figure.colorbar(colours, cax=grid.flat[bar]).ax.tick_params(labelsize=7)
             grid.flat[bar].set_box_aspect(16)
-        save(figure, target / (picture["name"] + ".png"), all(p["kind"] != "surface" for p in panels))
+        save(image_of(figure), target / (picture["name"] + ".png"), all(p["kind"] != "surface" for p in panels))
         print(picture["name"])
 
 

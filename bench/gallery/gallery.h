@@ -112,7 +112,7 @@ nlohmann::json surface_panel(const std::string& data, const std::string& title, 
 
 /// The image of a map with the edges of its faces.
 nlohmann::json faces_panel(const std::string& data, const std::string& title);
-/// An SVG file of the data folder.
+/// An SVG file of the data folder, a picture of its own.
 nlohmann::json svg_panel(const std::string& file);
 
 /// Numbers for tables.

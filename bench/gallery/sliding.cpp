@@ -14,13 +14,13 @@
 
 namespace beltrami::gallery {
 
-Mesh disk_with_holes(const std::vector<Hole>& holes, double h) {
+Mesh disk_with_holes(const std::vector<Hole>& holes, double h, int least_vertices) {
     std::vector<Circle> circles;
     for (const auto& [x, y, r] : holes) circles.push_back({{x, y}, r});
     DomainOptions options;
     options.edge_length = h;
     options.hole_edge_length = 0.4 * h;
-    options.least_hole_edges = 30;
+    options.least_hole_edges = least_vertices;
     return circle_domain({Eigen::Vector2d::Zero(), 1}, circles, options);
 }
 

@@ -10,8 +10,8 @@ namespace beltrami::gallery {
 /// x, y, radius.
 using Hole = std::array<double, 3>;
 
-/// The unit disk with round holes: edge length @p h, 0.4 h at the holes, which have at least 30 vertices each.
-Mesh disk_with_holes(const std::vector<Hole>& holes, double h);
+/// The unit disk with round holes: edge length @p h, 0.4 h at the holes, which have at least so many vertices each.
+Mesh disk_with_holes(const std::vector<Hole>& holes, double h, int least_vertices = 30);
 TargetDomain circles_target(const std::vector<Hole>& holes);
 /// A mesh of any target domain with the same edge lengths.
 Mesh domain_mesh(const TargetDomain& domain, double h);

@@ -1,5 +1,6 @@
 // Homotopy classes and starts; distances of shapes.
 #include <beltrami/io/atomic_file.h>
+#include <beltrami/mesh/planar.h>
 #include <beltrami/report/dendrogram.h>
 
 #include <fmt/format.h>
@@ -198,17 +199,19 @@ Figure sliding_distance(Output& output) {
                                "The matrix and the tree of its clusters, as `beltrami distance "
                                "--picture` draws them.",
                                {svg_panel("sliding_distance.svg")}});
-    Picture shown{"sliding_distance_shapes", "The shapes, coloured by |μ| of the identity (none).", {}};
-    shown.caption = "The shapes.";
-    for (int i = 0; i < n; ++i) {
-        const Mesh& mesh = surfaces[i].mesh;
-        Eigen::VectorXcd places(mesh.vertex_count());
-        for (int v = 0; v < mesh.vertex_count(); ++v) places[v] = {mesh.positions(v, 0), mesh.positions(v, 1)};
-        shown.panels.push_back(faces_panel(output.write("sliding_distance_" + std::to_string(i), mesh, places,
-                                                        Eigen::VectorXd::Zero(mesh.face_count())),
-                                           names[i]));
+    for (const int first : {0, n / 2}) {
+        Picture shown{first == 0 ? "sliding_distance_pairs" : "sliding_distance_others",
+                      first == 0 ? "The first family." : "The second family.",
+                      {}};
+        for (int i = first; i < first + n / 2; ++i) {
+            const Mesh& mesh = surfaces[i].mesh;
+            shown.panels.push_back(
+                faces_panel(output.write("sliding_distance_" + std::to_string(i), mesh, planar_coordinates(mesh),
+                                         Eigen::VectorXd::Zero(mesh.face_count())),
+                            names[i]));
+        }
+        figure.pictures.push_back(std::move(shown));
     }
-    figure.pictures.push_back(std::move(shown));
     figure.remarks.push_back("Largest distance within a family " + number(within) + ", least between them " +
                              number(between) + "; the widest bracket is " + number(widest) + ", and " +
                              std::to_string(matrix.unsettled.size()) + " pairs have not settled.");

@@ -198,8 +198,7 @@ Figure sliding_13(Output& output) {
                   {"grid", "border", "faces", "whole cells", "trimmed", "left out", "least angle", "largest angle",
                    "mean aspect", "largest aspect", "area ratio", "folded faces"},
                   {}};
-    Picture picture{"sliding_13", "A square grid and a polar one in the parameter domain and on the face.", {}},
-        texture{"sliding_13_texture", "The chessboard of the parameter domain on the face, and |μ|.", {}};
+    Picture texture{"sliding_13_texture", "The chessboard of the parameter domain on the face, and |μ|.", {}};
     struct Kind {
         std::string name, file;
         PlaneGrid grid;
@@ -207,12 +206,12 @@ Figure sliding_13(Output& output) {
         bool shown;
     };
     const RectangularGrid square{.spacing = 0.05};
-    const PolarGrid polar{.centre = 0, .spacing = 0.05, .sectors = 64};
-    for (const Kind& kind :
-         {Kind{"square, .05", "square", square, GridOptions::Border::trimmed, true},
-          Kind{"square, .05", "square_stepped", square, GridOptions::Border::stepped, false},
-          Kind{"polar, .05, 64 rays", "polar", polar, GridOptions::Border::trimmed, true},
-          Kind{"polar, .05, 64 rays", "polar_stepped", polar, GridOptions::Border::stepped, false}}) {
+    // Its circles are those around the first hole, which is one of them.
+    const LogPolarGrid polar{.centre = {0.1, 0.1}, .inner_radius = 0.15, .sectors = 64};
+    for (const Kind& kind : {Kind{"square, .05", "square", square, GridOptions::Border::trimmed, true},
+                             Kind{"square, .05", "square_stepped", square, GridOptions::Border::stepped, false},
+                             Kind{"log-polar, 64 rays", "polar", polar, GridOptions::Border::trimmed, true},
+                             Kind{"log-polar, 64 rays", "polar_stepped", polar, GridOptions::Border::stepped, false}}) {
         GridOptions how;
         how.border = kind.border;
         const SurfaceGrid grid = grid_on_surface(source, solved.all->map, kind.grid, how);
@@ -227,8 +226,12 @@ Figure sliding_13(Output& output) {
         if (!kind.shown) continue;
         const std::string data = output.write("sliding_13_" + kind.file, grid.mesh, grid.parameter,
                                               Eigen::VectorXd::Zero(grid.mesh.face_count()));
-        picture.panels.push_back(faces_panel(data, "parameter domain"));
-        picture.panels.push_back(surface_panel(data, "face", "faces", kAzimuth, kElevation));
+        figure.pictures.push_back(
+            {"sliding_13_" + kind.file,
+             "The grid (" + kind.name + ", " + std::to_string(q.folded.size()) +
+                 " folded faces) in the parameter domain and on the face.",
+             {faces_panel(data, "parameter domain"), surface_panel(data, "face", "faces", kAzimuth, kElevation),
+              surface_panel(data, "from the side", "faces", kAzimuth + 40, 40)}});
     }
     const std::string data = write(output, "sliding_13_map", face, solved);
     const double shown = 1.6 * solved.all->k;
@@ -237,7 +240,7 @@ Figure sliding_13(Output& output) {
     texture.panels.push_back(map_panel(data, "|μ|", shown));
     texture.panels.push_back(histogram_panel({{"", data}}, "", solved.all->k, shown));
     figure.tables.push_back(std::move(quality));
-    figure.pictures = {std::move(picture), std::move(texture)};
+    figure.pictures.push_back(std::move(texture));
     return figure;
 }
 

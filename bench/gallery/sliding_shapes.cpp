@@ -2,8 +2,8 @@
 #include <beltrami/maps/timing.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <numbers>
 
 #include "gallery/sliding.h"
@@ -23,6 +23,13 @@ std::vector<Hole> nine_holes(double middle, double distance, double turn, double
         holes.push_back({c.real(), c.imag(), i % 2 == 0 ? even : odd});
     }
     return holes;
+}
+
+/// harmonic_seconds() is the median of so many maps.
+constexpr int kHarmonicRuns = 3;
+
+double processor_seconds(std::clock_t start) {
+    return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
 std::vector<Complex> regular_polygon(Complex centre, double radius, int corners, double turn) {
@@ -104,12 +111,13 @@ Figure sliding_09(Output&) {
                   "*The paper* (Table 1, an i7 of 2.1 GHz): seven pairs of domains which it does not name; it stops "
                   "when μ changes by less than 1e-3."};
     Table table{
-        "Example 5's domain refined to the sizes of Table 1. A harmonic map and the extremal map of the same "
-        "mesh are measured in one run: harmonic = operators, ordering, analysis, assembly, factorisation and "
-        "solution; extremal = everything between the loaded mesh and the result (tolerance 1e-8), the best of "
-        "three",
+        "Example 5's domain refined to the sizes of Table 1. A harmonic map and the extremal map of the same mesh are "
+        "measured in one run: harmonic = operators, ordering, analysis, assembly, factorisation and solution; extremal "
+        "= everything between the loaded mesh and the result (tolerance 1e-8). The least of several; processor seconds "
+        "are those of all threads and hardly depend on what else the machine does",
         {"vertices (paper)", "triangles (paper)", "seconds (paper)", "vertices", "triangles", "harmonic s",
-         "extremal s", "ratio", "paper's s over ours", "k", "std", "flips", "iterations"},
+         "extremal s", "ratio", "harmonic, processor s", "extremal, processor s", "ratio of processor s",
+         "paper's s over ours", "k", "std", "flips", "iterations"},
         {}};
     struct Row {
         int vertices, faces;
@@ -124,40 +132,54 @@ Figure sliding_09(Output&) {
                                            {4'832, 9'376, 7.6386},
                                            {671, 1'240, 0.9367},
                                            {588, 1'056, 1.3129}}) {
-        // Edge length for so many vertices: area over vertices, then corrected once or twice.
+        // The edge length for so many vertices, by area and then corrected. Small meshes have fewer vertices a hole.
         double h = std::sqrt(1.1 * kPi * 0.97 / row.vertices);
         Mesh mesh;
-        for (int i = 0; i < 6; ++i) {
-            mesh = disk_with_holes(from, h);
+        for (int i = 0; i < 8; ++i) {
+            mesh = disk_with_holes(from, h, row.vertices < 1000 ? 16 : 30);
             h *= std::sqrt(static_cast<double>(mesh.vertex_count()) / row.vertices);
         }
         BoundaryCondition boundary;
         const Surface surface(mesh);
         for (const auto& loop : surface.topology.boundary_loops)
             for (const int v : loop) boundary.pin(v, Complex(mesh.positions(v, 0), mesh.positions(v, 1)));
-        double harmonic = 1e300, extremal = 1e300;
+        double harmonic = 1e300, extremal = 1e300, harmonic_processor = 1e300, extremal_processor = 1e300;
         SolvedOnto solved;
-        for (int i = 0; i < 3; ++i) {
+        for (int i = 0; i < 5; ++i) {
+            std::clock_t start = std::clock();
             harmonic = std::min(harmonic, beltrami::harmonic_seconds(surface, boundary));
+            harmonic_processor = std::min(harmonic_processor, processor_seconds(start) / kHarmonicRuns);
+            start = std::clock();
             solved = solve_onto([&] {
                 const Surface source(mesh);
                 return extremal_map(source, target, numbered(3));
             });
-            if (solved) extremal = std::min(extremal, solved.seconds);
+            if (!solved) break;
+            extremal = std::min(extremal, solved.seconds);
+            extremal_processor = std::min(extremal_processor, processor_seconds(start));
         }
-        if (!solved) continue;
+        std::vector<std::string> cells{
+            std::to_string(row.vertices),        std::to_string(row.faces),         number(row.seconds, 1),
+            std::to_string(mesh.vertex_count()), std::to_string(mesh.face_count()), number(harmonic, 4)};
+        if (!solved) {
+            cells.push_back("refused: " + solved.refusal);
+            table.rows.push_back(std::move(cells));
+            continue;
+        }
         const ExtremalMapOnto& found = *solved.all;
-        table.rows.push_back({std::to_string(row.vertices), std::to_string(row.faces), number(row.seconds, 1),
-                              std::to_string(mesh.vertex_count()), std::to_string(mesh.face_count()),
-                              number(harmonic, 4), number(extremal, 3), number(extremal / harmonic, 1),
-                              number(row.seconds / extremal, 0), number(found.k, 5),
-                              number(found.distortion.standard_deviation),
-                              std::to_string(found.distortion.flipped.size()), std::to_string(found.iterations)});
+        for (const std::string& cell :
+             {number(extremal, 3), number(extremal / harmonic, 1), number(harmonic_processor, 4),
+              number(extremal_processor, 3), number(extremal_processor / harmonic_processor, 1),
+              number(row.seconds / extremal, 0), number(found.k, 5), number(found.distortion.standard_deviation),
+              std::to_string(found.distortion.flipped.size()), std::to_string(found.iterations)})
+            cells.push_back(cell);
+        table.rows.push_back(std::move(cells));
     }
     figure.tables.push_back(std::move(table));
     figure.remarks.push_back(
-        "The machine is another one than the paper's, so only the ratios to a harmonic map carry "
-        "over. Meshes of a size have more vertices at the holes than the paper's.");
+        "The machine is another one than the paper's, so only the ratios to a harmonic map carry over. On small meshes "
+        "what does not grow with them (the grid of the c-step, the space of differentials) outweighs a harmonic map, "
+        "which takes less than a millisecond.");
     return figure;
 }
 
