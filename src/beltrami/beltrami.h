@@ -5,6 +5,9 @@
 #include <beltrami/applications/grid_on_surface.h>
 #include <beltrami/baselines/baseline.h>
 #include <beltrami/conformal/boundary_values.h>
+#include <beltrami/conformal/chart_places.h>
+#include <beltrami/conformal/circle_domain_chart.h>
+#include <beltrami/conformal/circle_matching.h>
 #include <beltrami/conformal/domain_chart.h>
 #include <beltrami/conformal/fill_holes.h>
 #include <beltrami/conformal/flatten.h>

@@ -217,8 +217,7 @@ TEST(SlidingClasses, HolesThatChangePlacesEitherWayAreTwoMaps) {
     // Two holes change places beside a third one. (Without a third hole, or a mark outside, both ways are the same: the
     // outer loop turns along.)
     const Surface source(disk_with_holes({{-0.35, 0.25, 0.12}, {0.35, 0.25, 0.12}, {0, -0.5, 0.15}}, 0.06));
-    const TargetDomain target =
-        circles_target({{0.35, 0.25, 0.12}, {-0.35, 0.2, 0.14}, {0.1, -0.5, 0.15}});
+    const TargetDomain target = circles_target({{0.35, 0.25, 0.12}, {-0.35, 0.2, 0.14}, {0.1, -0.5, 0.15}});
     std::vector<ExtremalMapOnto> results;
     for (const double sign : {1.0, -1.0}) {
         OntoOptions options;

@@ -1,6 +1,6 @@
 #include <beltrami/differentials/laurent_space.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
@@ -21,6 +21,8 @@ namespace {
 constexpr double kTurn = 2 * std::numbers::pi;
 /// A power of which less than this part is new is left out.
 constexpr double kDependent = 1e-11;
+/// Cholesky factors orthonormalise columns of which so much is new.
+constexpr double kCholesky = 1e-5;
 /// Singular values below this are rounding.
 constexpr double kRounding = 1e-14;
 /// The space is of use up to this residual, and clear of the others by this factor.
@@ -31,6 +33,12 @@ constexpr double kNearRounding = 1e-7, kImproves = 0.1;
 constexpr double kFarImage = 3;
 /// Singular values reported on either side of the gap, at most.
 constexpr int kReported = 6;
+/// Inverse iteration: further vectors in the block, steps, and the shift as part of the mean square.
+constexpr int kExtra = 8, kInverseSteps = 6;
+constexpr double kShift = 1e-13;
+/// Powers are added beyond those that the fall of the residual so far asks for: as part of them, and in any case.
+constexpr double kMorePowers = 1.1;
+constexpr int kLeastMorePowers = 4;
 constexpr int kPointsPerChunk = 256;
 
 /// Gauss-Legendre rule with 8 points on [0, 1].
@@ -133,6 +141,63 @@ Eigen::MatrixXd imaginary_parts(const Eigen::MatrixXcd& functions, const Boundar
     return result;
 }
 
+/// A = Q R with orthonormal columns in place of A: by Cholesky factors of AᴴA, twice, or where these fail by
+/// reflections.
+/// @return flags of the columns that do not depend on earlier ones; Q and R are of use if all are set
+std::vector<char> orthonormalise(Eigen::MatrixXcd& A, Eigen::MatrixXcd& R) {
+    const Eigen::Index n = A.cols();
+    std::vector<char> kept(static_cast<std::size_t>(n), 1);
+    const Eigen::VectorXd lengths = A.colwise().norm();
+    Eigen::MatrixXcd Q = A * lengths.cwiseInverse().cast<Complex>().asDiagonal();
+    R = lengths.cast<Complex>().asDiagonal();
+    for (int pass = 0; pass < 2; ++pass) {
+        const Eigen::MatrixXcd gram = complex_gram_upper(Q);
+        const Eigen::LLT<Eigen::MatrixXcd, Eigen::Upper> factor(gram);
+        const Eigen::MatrixXcd own = factor.matrixU();
+        const double least = own.diagonal().real().minCoeff();
+        if (factor.info() != Eigen::Success || !(least > (pass == 0 ? kCholesky : 0.5))) break;
+        Q = complex_product(Q, own.triangularView<Eigen::Upper>().solve(Eigen::MatrixXcd::Identity(n, n)));
+        R = own * R;
+        if (pass == 0) continue;
+        A = std::move(Q);
+        return kept;
+    }
+    const Eigen::HouseholderQR<Eigen::MatrixXcd> qr(A);
+    R = qr.matrixQR().topRows(n).triangularView<Eigen::Upper>();
+    for (Eigen::Index j = 0; j < n; ++j)
+        kept[static_cast<std::size_t>(j)] = std::abs(R(j, j)) > kDependent * lengths[j];
+    A = qr.householderQ() * Eigen::MatrixXcd::Identity(A.rows(), n);
+    return kept;
+}
+
+struct Singular {
+    Eigen::VectorXd values;   ///< ascending
+    Eigen::MatrixXd vectors;  ///< right ones, in columns
+};
+
+/// The smallest singular values: inverse iteration with a block, then the singular values of A on the block itself, so
+/// that AᵀA costs no digits. Those next to the gap are right to a few per cent, the vanishing ones to rounding.
+Singular smallest_singular(const Eigen::MatrixXd& A, Eigen::Index count) {
+    const Eigen::Index n = A.cols(), width = std::min(n, count + kExtra);
+    Eigen::MatrixXd gram = gram_lower(A);
+    gram.diagonal().array() += kShift * gram.trace() / static_cast<double>(n);
+    const Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> factor(gram);
+    // Any start that is regular will do.
+    Eigen::MatrixXd block(n, width);
+    for (Eigen::Index j = 0; j < width; ++j)
+        for (Eigen::Index i = 0; i < n; ++i) {
+            const double turns =
+                0.6180339887498949 * static_cast<double>((i + 1) * (j + 1)) + 0.1 * static_cast<double>(i);
+            block(i, j) = turns - std::floor(turns) - 0.5;
+        }
+    for (int step = 0; step < kInverseSteps; ++step) {
+        const Eigen::HouseholderQR<Eigen::MatrixXd> qr(factor.solve(block));
+        block = qr.householderQ() * Eigen::MatrixXd::Identity(n, width);
+    }
+    const Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::HouseholderQRPreconditioner> svd(A * block, Eigen::ComputeThinV);
+    return {svd.singularValues().reverse().head(count), block * svd.matrixV().rowwise().reverse().leftCols(count)};
+}
+
 Eigen::VectorXd roots_of_weights(const BoundaryPoints& points) {
     return Eigen::Map<const Eigen::VectorXd>(points.root_weights.data(),
                                              static_cast<Eigen::Index>(points.root_weights.size()));
@@ -166,12 +231,23 @@ LaurentSpace::LaurentSpace(RoundDomain domain, const LaurentOptions& options) : 
     if (dimension == 0) return;
     LaurentSpace best = *this;
     best.fit_.residual = INFINITY;
-    for (int degree = options.first_degree;; degree = std::min(2 * degree, options.largest_degree)) {
+    double last = INFINITY;
+    for (int degree = options.first_degree, last_degree = 0;;) {
         const bool clear = find(degree, dimension);
-        const bool improved = fit_.residual < kImproves * best.fit_.residual;
-        const bool at_rounding = !improved && best.fit_.residual < kNearRounding;
-        if (clear && fit_.residual < best.fit_.residual) best = *this;
+        const double residual = fit_.residual;
+        const bool at_rounding = residual > kImproves * best.fit_.residual && best.fit_.residual < kNearRounding;
+        if (clear && residual < best.fit_.residual) best = *this;
         if (best.fit_.residual <= options.tolerance || at_rounding || degree >= options.largest_degree) break;
+        // Residuals fall geometrically, once they do.
+        int next = 2 * degree;
+        if (residual < kImproves * last && std::isfinite(last)) {
+            const double wanted =
+                std::log(residual / options.tolerance) / std::log(last / residual) * (degree - last_degree);
+            next = std::min(next, degree + kLeastMorePowers + static_cast<int>(kMorePowers * wanted));
+        }
+        last = residual;
+        last_degree = degree;
+        degree = std::min(next, options.largest_degree);
     }
     if (!(best.fit_.residual <= kLargestResidual))
         throw Error(Cause::not_solved,
@@ -229,29 +305,19 @@ bool LaurentSpace::find(int degree, int dimension) {
     const BoundaryPoints points = boundary_points(domain_, degree, false);
     std::vector<Power> powers = powers_up_to(degree);
     Eigen::MatrixXcd functions, triangle;
-    // Orthonormal functions; powers that depend on earlier ones are left out.
     for (bool dependent = true; dependent;) {
         functions = roots_of_weights(points).cast<Complex>().asDiagonal() * values(powers, points.positions());
-        const Eigen::VectorXd lengths = functions.colwise().norm();
-        const Eigen::Index n = functions.cols();
-        const Eigen::HouseholderQR<Eigen::MatrixXcd> qr(functions);
-        triangle = qr.matrixQR().topRows(n).triangularView<Eigen::Upper>();
-        std::vector<Power> kept;
-        for (Eigen::Index j = 0; j < n; ++j)
-            if (std::abs(triangle(j, j)) > kDependent * lengths[j]) kept.push_back(powers[j]);
-        dependent = kept.size() < powers.size();
-        powers = std::move(kept);
-        if (!dependent) functions = qr.householderQ() * Eigen::MatrixXcd::Identity(functions.rows(), n);
+        const std::vector<char> kept = orthonormalise(functions, triangle);
+        std::vector<Power> independent;
+        for (std::size_t j = 0; j < powers.size(); ++j)
+            if (kept[j]) independent.push_back(powers[j]);
+        dependent = independent.size() < powers.size();
+        powers = std::move(independent);
     }
     const Eigen::Index n = functions.cols();
     const Eigen::MatrixXd parts = imaginary_parts(functions, points);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram_lower(parts));
-    // The squares lose half of the digits of small singular values, but not of the vectors: measured again with these.
     const Eigen::Index shown = std::min<Eigen::Index>(2 * n, dimension + kReported);
-    const Eigen::MatrixXd lowest = eigen.eigenvectors().leftCols(shown);
-    Eigen::VectorXd singular(shown);
-    for (Eigen::Index i = 0; i < shown; ++i) singular[i] = (parts * lowest.col(i)).norm();
-    std::sort(singular.data(), singular.data() + shown);
+    const auto [singular, lowest] = smallest_singular(parts, shown);
     // The widest gap; or, while the last of the wanted functions are not resolved as well as the others, the last one:
     // above it the values lie close together.
     Eigen::Index at_widest = 0, at_last = 0;

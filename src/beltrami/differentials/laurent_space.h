@@ -6,8 +6,8 @@
 namespace beltrami {
 
 struct LaurentOptions {
-    double tolerance = 1e-10;  ///< of φ τ² being real, see LaurentSpace::Fit
-    int first_degree = 16;     ///< powers for each circle to begin with, at least 4; doubled while need be …
+    double tolerance = 1e-9;   ///< of φ τ² being real, see LaurentSpace::Fit
+    int first_degree = 16;     ///< powers for each circle to begin with, at least 4; more while need be …
     int largest_degree = 128;  ///< … up to this
     /// @throw Error bad_option if a value is impossible
     void validate() const;

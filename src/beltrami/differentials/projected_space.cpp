@@ -150,6 +150,11 @@ void ProjectionOptions::validate(const Surface& source) const {
 
 ProjectedSpace projected_space(const Surface& source, const Chart& chart, const ProjectionOptions& options) {
     options.validate(source);
+    if (chart.holes.size() + 1 != source.topology.boundary_loops.size())
+        throw Error(Cause::bad_option,
+                    "the chart names " + std::to_string(chart.holes.size()) + " holes of " +
+                        std::to_string(source.topology.boundary_loops.size() - 1),
+                    "give a place inside every hole, or seeds");
     const auto pairs = pairs_of_poles(chart, options.marked);
     const Eigen::Index samples = source.operators.sample_count();
     Eigen::MatrixXcd seeds(samples, 2 * static_cast<Eigen::Index>(pairs.size()));
@@ -203,7 +208,9 @@ ProjectedSpace projected_space(const Surface& source, const Chart& chart, const 
     result.gap = last / std::max(next, 0.0);
     const auto described = [&] {
         return std::to_string(dimension) +
-               " eigenvalues should stand out and these are there: " + listed(values, dimension + 4);
+               (dimension > 1 ? " eigenvalues should stand out and these are there: "
+                              : " eigenvalue should stand out and these are there: ") +
+               listed(values, dimension + 4);
     };
     if (!(last > 0) || !(result.gap >= kNoGap))
         throw Error(Cause::not_solved, "the quadratic differentials are not found: " + described(),

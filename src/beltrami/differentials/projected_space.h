@@ -8,10 +8,11 @@
 namespace beltrami {
 
 struct ProjectionOptions {
-    std::vector<int> marked;    ///< vertices that maps keep, on the boundary or inside: φ may have simple poles there
-    Eigen::VectorXcd tangents;  ///< #V of the true boundary curves in the chart, any length and sign; ignored at inner
-                                ///< vertices; empty: of the circles through three neighbours of a loop
-    double least_gap = 20;      ///< of the eigenvalues, below which a warning is given
+    std::vector<int> marked =
+        {};  ///< vertices that maps keep, on the boundary or inside: φ may have simple poles there
+    Eigen::VectorXcd tangents = {};  ///< #V of the true boundary curves in the chart, any length and sign; ignored at
+                                     ///< inner vertices; empty: of the circles through three neighbours of a loop
+    double least_gap = 50;           ///< of the eigenvalues, below which a warning is given
     /// @throw Error bad_option if a value is impossible
     void validate(const Surface& source) const;
 };

@@ -24,6 +24,14 @@ int RoundDomain::circle_of(Complex mark) const {
     return nearest;
 }
 
+Singularities RoundDomain::singularities() const {
+    Singularities result;
+    for (const Disk& hole : holes) result.holes.push_back({hole.centre, hole.radius, 1});
+    result.pins = boundary_marks;
+    result.pins.insert(result.pins.end(), interior_marks.begin(), interior_marks.end());
+    return result;
+}
+
 void RoundDomain::validate() const {
     const auto bad = [](const std::string& sentence, std::vector<int> indices) {
         throw Error(Cause::bad_option, sentence, "give a disk with round holes apart from each other",

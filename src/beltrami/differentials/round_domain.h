@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <beltrami/conformal/chart.h>
+#include <beltrami/differentials/singularities.h>
 
 namespace beltrami {
 
@@ -23,6 +24,10 @@ struct RoundDomain {
     const Disk& circle(int i) const { return i == 0 ? outer : holes[i - 1]; }
     /// The circle on which a boundary mark lies: the nearest one.
     int circle_of(Complex mark) const;
+
+    /// Where functions of the domain vary quickly: about the holes and at the marks. What SampledSpace and the c-step
+    /// need beside a LaurentSpace. The largest powers of the holes are not meant.
+    Singularities singularities() const;
 
     /// @throw Error bad_option naming holes that meet each other or the outer circle, marks that are not where they
     /// belong (to a millionth of the outer radius) and marks that coincide

@@ -21,7 +21,7 @@ struct Stage {
     double damping;  ///< of the step; 0: none
 };
 /// The damping falls as φ and k settle; the penalty on outliers rises.
-constexpr Stage kStages[] = {{3, 30, true, 0.03}, {1, 100, true, 0.01}, {1, 100, true, 0.003}, {2, 200, false, 0.003}};
+constexpr Stage kStages[] = {{4, 30, true, 0.005}, {2, 100, false, 0.002}, {2, 200, false, 0.0005}};
 constexpr Stage kLastStage{6, 400, false, 0};
 /// A stage in which E moves by less than this part of it is followed by the last one.
 constexpr double kSettled = 0.02;

@@ -37,6 +37,8 @@ struct OntoOptions {
     /// (one_form_squares.h), which is at home in corners. automatic: the last for four marks on a disk, else the first.
     enum class Space { automatic, projection, laurent, one_form_squares };
     Space space = Space::automatic;
+    /// Large problems without marks start from the extremal map of a coarse mesh of the source's circle domain.
+    bool coarse_start = true;
     double target_edge_length = 0;  ///< of the mesh of a target that is not round; 0: that of the source, relatively
     bool remove_folds = true;       ///< finish with a fold-free solve where faces are flipped
     /// Called once per iteration with its number and k; returning false cancels (Error cancelled).
@@ -74,10 +76,11 @@ struct ExtremalMapOnto {
     double dimension_gap = 0;    ///< how clearly the dimension was told: a ratio of singular values or eigenvalues
     OntoOptions::Space space = OntoOptions::Space::laurent;  ///< how the space was found
     std::vector<LoopOnto> loops;                             ///< in the order of the source's loops
-    double rotation = 0;                ///< of the source's circle domain before the holes were led to their places
-    std::vector<Waypoint> path;         ///< the way of the holes, as in options; empty: straight
-    bool led = false;                   ///< the start was led along the way; else it is the harmonic map
-    int start_flips = 0;                ///< faces that the harmonic map with the boundary of the start turns over
+    double rotation = 0;         ///< of the source's circle domain before the holes were led to their places
+    std::vector<Waypoint> path;  ///< the way of the holes, as in options; empty: straight
+    bool led = false;            ///< the start was led along the way; else it is the harmonic map
+    /// Faces that the harmonic map with the boundary of the start turns over (on the coarse mesh, if there was one).
+    int start_flips = 0;
     std::optional<SplitProblem> split;  ///< the mesh that was mapped, if it is not the source itself
     double boundary_residual = 0;       ///< largest distance of a marked vertex from its place
     Termination termination = Termination::converged;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 
@@ -202,6 +203,31 @@ SlidingStart sliding_start(const Surface& source, const CircleDomainChart& chart
         for (std::size_t i = 0; i < loops[sliding.loop].size(); ++i)
             result.map[loops[sliding.loop][i]] = sliding.curve.point(sliding.parameters[i]);
     return result;
+}
+
+void hold_what_conformal_maps_move(std::vector<SlidingLoop>& loops, int outer, std::size_t marks) {
+    const std::size_t holes = loops.size() - 1;
+    const std::size_t free = holes == 0 ? 3 : holes == 1 ? 1 : 0;
+    if (marks >= free) return;
+    for (SlidingLoop& sliding : loops) {
+        if (sliding.loop != outer) continue;
+        // Places that share the curve evenly with the marks of this loop.
+        const std::size_t n = sliding.held.size();
+        for (std::size_t more = marks; more < free; ++more) {
+            std::size_t best = 0;
+            double farthest = -1;
+            for (std::size_t i = 0; i < n; ++i) {
+                double nearest = std::numeric_limits<double>::infinity();
+                for (std::size_t j = 0; j < n; ++j)
+                    if (sliding.held[j])
+                        nearest =
+                            std::min(nearest, std::abs(std::remainder(sliding.parameters[i] - sliding.parameters[j],
+                                                                      sliding.curve.length())));
+                if (nearest > farthest * (1 + 1e-9)) farthest = nearest, best = i;
+            }
+            sliding.held[best] = 1;
+        }
+    }
 }
 
 }  // namespace beltrami

@@ -27,4 +27,10 @@ struct SlidingStart {
 SlidingStart sliding_start(const Surface& source, const CircleDomainChart& chart, const TargetModel& target,
                            const OntoOptions& options);
 
+/// Holds as many vertices of the outer loop as conformal maps of the source to itself leave free, spread evenly: one of
+/// an annulus, three of a disk, less the marks.
+/// @param outer the outer loop
+/// @param marks how many vertices are marked
+void hold_what_conformal_maps_move(std::vector<SlidingLoop>& loops, int outer, std::size_t marks);
+
 }  // namespace beltrami

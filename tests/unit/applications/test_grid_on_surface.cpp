@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -112,7 +114,7 @@ TEST(GridOnSurface, CirclesOfAnAnnulusAreKept) {
     EXPECT_EQ(grid.trimmed_cells, 0);
     EXPECT_EQ(grid.mesh.vertex_count(), 8 * 36);
     const double factor = std::pow(1 / 0.3, 1.0 / 7);
-    EXPECT_NEAR(grid.quality.area_ratio, std::pow(factor, 12), 0.1);
+    EXPECT_NEAR(grid.quality.area_ratio, std::pow(factor, 12), 0.25);
     EXPECT_LT(grid.quality.max_aspect, 1.25);
     EXPECT_EQ(topology(grid.mesh).euler_characteristic, 0);
     const auto inside = [&] { grid_on_surface(source, map, LogPolarGrid{.centre = 0.5, .inner_radius = 0.1}); };
@@ -153,7 +155,7 @@ TEST(GridOnSurface, ConformalGridOnASphereIsNearlySquare) {
     for (const int rings : {16, 32, 64}) {
         const auto [source, map] = half_sphere(rings);
         const SurfaceGrid grid = grid_on_surface(source, map, RectangularGrid{.spacing = 1.6 / rings},
-                                                 {.border = GridOptions::Border::stepped});
+                                                 {.border = GridOptions::Border::stepped, .snap = 0});
         expect_sound(grid, source, map);
         double off = 0;  // of the sphere
         for (int v = 0; v < grid.mesh.vertex_count(); ++v) off = std::max(off, 1 - grid.mesh.point(v).norm());
@@ -238,13 +240,19 @@ TEST(GridOnSurface, RealScan) {
     const char* folder = std::getenv("BELTRAMI_TEST_MESHES");
     if (!folder || !std::filesystem::exists(folder)) GTEST_SKIP() << "BELTRAMI_TEST_MESHES names no folder of meshes";
     const Surface face(read_mesh(std::filesystem::path(folder) / "human_face.obj").mesh);
-    const Eigen::VectorXcd map = round_disk_chart(face).z;
-    const SurfaceGrid grid = grid_on_surface(face, map, RectangularGrid{.spacing = 0.05});
-    EXPECT_NO_THROW(require_sound(grid.mesh));
-    EXPECT_GT(grid.whole_cells, 1000);
-    EXPECT_EQ(grid.quality.folded.size(), 0u);
-    EXPECT_NEAR(area_of(grid.mesh), area_of(face.mesh), 0.05 * area_of(face.mesh));
-    RecordProperty("min_angle", std::to_string(grid.quality.min_angle));
+    const Eigen::VectorXcd map = round_disk_chart(face).vertices;
+    const SurfaceGrid coarse = grid_on_surface(face, map, RectangularGrid{.spacing = 0.05});
+    EXPECT_NO_THROW(require_sound(coarse.mesh));
+    EXPECT_GT(coarse.whole_cells, 1000);
+    EXPECT_TRUE(coarse.quality.folded.empty());
+    EXPECT_GT(coarse.quality.min_angle, 0.2);
+    // The scan is rough: the finer the grid, the more of the relief it follows, and few cells turn over on its creases.
+    const SurfaceGrid fine = grid_on_surface(face, map, RectangularGrid{.spacing = 0.0125});
+    EXPECT_NO_THROW(require_sound(fine.mesh));
+    EXPECT_LT(fine.quality.folded.size(), 1e-3 * fine.mesh.face_count());
+    const double area = area_of(face.mesh);
+    EXPECT_LT(area_of(coarse.mesh), area);
+    EXPECT_LT(area - area_of(fine.mesh), 0.5 * (area - area_of(coarse.mesh)));
 }
 
 }  // namespace

