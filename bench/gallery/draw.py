@@ -363,7 +363,7 @@ def save(full, path, flat):
     full = full.crop((max(left - 6, 0), max(top - 6, 0), min(right + 6, full.width), min(bottom + 6, full.height)))
     for scale in (1, 0.85, 0.7, 0.55, 0.4):
         image = full if scale == 1 else full.resize([int(scale * s) for s in full.size], Image.LANCZOS)
-        for count in (256,) if flat else (256, 128):
+        for count in (256,) if flat else (256, 128, 64, 32):
             packed = io.BytesIO()
             if flat:
                 reduced = with_palette(image, fixed_palette())
