@@ -90,6 +90,7 @@ Energies energies(const std::string& label, const Surface& source, const TargetD
         result.p99.y.push_back(std::min(1.0, d.p99));
     };
     options.remove_folds = false;
+    options.coarse_start = false;
     for (int n = 1; n <= 90 && result.settled == 0; n += n < 20 ? 1 : 5) {
         options.max_iterations = n;
         const SolvedOnto solved = solve_onto(source, target, options);
