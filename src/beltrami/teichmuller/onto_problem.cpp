@@ -18,6 +18,8 @@ namespace {
 
 /// How many solves the system is ordered for.
 constexpr int kExpectedFactorizations = 6;
+/// k, of second order in the direction of φ, settles to this part of the tolerance.
+constexpr double kToleranceOfK = 0.01;
 /// Newton steps of the boundary after the iteration, until no vertex moves by more than this part of its curve.
 constexpr int kLastSteps = 10;
 constexpr double kSettled = 1e-9;
@@ -153,7 +155,8 @@ void OntoProblem::iterate(OntoDifferentials phi, SlidingBoundary& boundary, Slid
                           ExtremalMapOnto& result) const {
     CoefficientStep coefficient_step(source_, phi.chart, {}, phase_of(domain_, source_), kClusters);
     HamiltonIteration::Options how;
-    how.tolerance = how.k_tolerance = options_.tolerance;
+    how.tolerance = options_.tolerance;
+    how.k_tolerance = kToleranceOfK * options_.tolerance;
     how.max_iterations = options_.max_iterations;
     how.anderson_window = options_.anderson_window;
     how.grow_first = how.grow_last = false;
