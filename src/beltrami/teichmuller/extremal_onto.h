@@ -122,4 +122,10 @@ struct ExtremalMapOntoSurface {
 ExtremalMapOntoSurface extremal_map(const Surface& source, const Surface& target, const OntoOptions& options = {},
                                     int outer = 0);
 
+/// What the options become where the target's circle domain stands for a target that is a surface: loops are paired
+/// with its curves, mark_vertices are marks on them.
+/// @throw Error bad_option for marks on curves or a loop that the target has not; bad_boundary for a vertex that is not
+///        on its boundary
+OntoOptions options_on_circles(const OntoOptions& options, const Surface& target, const CircleDomainChart& chart);
+
 }  // namespace beltrami
