@@ -34,7 +34,7 @@ void OntoTarget::add_to(CLI::App& app, Kinds kinds) {
         ->allow_extra_args(false)
         ->type_name("0:0,1:2,...");
     app.add_option("--match", match_,
-                   "without --loops, holes go to those nearest after the best rotation, or of like size")
+                   "without --loops, holes go to those nearest after the best Moebius map of the disk, or of like size")
         ->check(CLI::IsMember({"position", "size"}))
         ->capture_default_str();
     app.add_option("--marks", marks_file_,

@@ -140,7 +140,7 @@ class Compare(WithRing):
         points, faces = ring(40, 8, 0.3)
         write_obj(self.path("other.obj"), points, faces)
         loops = self.record("info", self.source)["source"]["loops"], self.record("info", self.path("other.obj"))["source"]["loops"]
-        pathlib.Path(self.path("marks.txt")).write_text(f"{loops[0][0]['first_vertex']} {loops[1][0]['first_vertex'] + 1}\n")
+        pathlib.Path(self.path("marks.txt")).write_text(f"{loops[0][0]['first_vertex']} {loops[1][0]['first_vertex'] + 10}\n")
         record = self.record("map", self.source, "--onto", self.path("other.obj"), "--mark-vertices",
                              self.path("marks.txt"), "-o", self.path("out.obj"), "--compare", "t-map")
         (line,) = record["comparison"]

@@ -86,7 +86,8 @@ Json to_object(const OntoRecord& onto) {
                    {"expected_dimension", onto.expected_dimension},
                    {"gap", number(onto.gap)},
                    {"K_upper", number(onto.K_upper)},
-                   {"rotation", number(onto.rotation)},
+                   {"rotation", number(onto.move.rotation)},
+                   {"centre", {number(onto.move.centre.real()), number(onto.move.centre.imag())}},
                    {"led", onto.led},
                    {"start_flips", onto.start_flips}};
     Json path = Json::array(), loops = Json::array();
@@ -263,7 +264,7 @@ OntoRecord onto_record(const ExtremalMapOnto& result, const std::string& target)
             result.dimension_gap,
             result.K_upper,
             result.loops,
-            result.rotation,
+            result.move,
             result.path,
             result.led,
             result.start_flips};

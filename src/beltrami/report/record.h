@@ -79,7 +79,7 @@ struct OntoRecord {
     double gap = 0;  ///< how clearly the dimension was told
     double K_upper = 1;
     std::vector<LoopOnto> loops;
-    double rotation = 0;
+    DiskMoebius move;
     std::vector<Waypoint> path;
     bool led = false;
     int start_flips = 0;

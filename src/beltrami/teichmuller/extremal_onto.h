@@ -79,7 +79,7 @@ struct ExtremalMapOnto {
     double dimension_gap = 0;    ///< how clearly the dimension was told: a ratio of singular values or eigenvalues
     OntoOptions::Space space = OntoOptions::Space::laurent;  ///< how the space was found
     std::vector<LoopOnto> loops;                             ///< in the order of the source's loops
-    double rotation = 0;         ///< of the source's circle domain before the holes were led to their places
+    DiskMoebius move;            ///< of the source's circle domain before the holes were led to their places
     std::vector<Waypoint> path;  ///< the way of the holes, as in options; empty: straight
     bool led = false;            ///< the start was led along the way; else it is the harmonic map
     /// Faces that the harmonic map with the boundary of the start turns over (on the coarse mesh, if there was one).

@@ -107,7 +107,7 @@ ExtremalMapOnto OntoProblem::solve(const TargetModel& target) {
     hold_what_conformal_maps_move(start.loops, options_.outer_loop, marked_.size());
     ExtremalMapOnto result;
     result.start = start.map;
-    result.rotation = start.rotation;
+    result.move = start.move;
     result.path = start.path;
     result.led = start.led;
     result.start_flips = start.flips;
