@@ -170,8 +170,8 @@ class Grid final : public Command {
     static void add_warnings(const SurfaceGrid& grid, Record& record) {
         if (const auto& folded = grid.quality.folded; !folded.empty())
             record.warnings.push_back(counted(folded.size(), "face of the grid is", "faces of the grid are") +
-                                      " turned over or not convex on the surface, which turns back there; the first "
-                                      "is face " +
+                                      " turned over or not convex on the surface: at a corner of the domain that its "
+                                      "boundary has not, or where it turns back; the first is face " +
                                       std::to_string(folded[0]));
     }
 

@@ -59,10 +59,15 @@ TEST(OptionsOnCircles, RefusesWhatTheTargetHasNot) {
     };
     int inside = 0;
     while (target.surface.topology.on_boundary[inside]) ++inside;
-    EXPECT_EQ(cause({.loops = {{0, 3}}}), Cause::bad_option);
-    EXPECT_EQ(cause({.marks = {{0, 0, 0.0}}}), Cause::bad_option);
-    EXPECT_EQ(cause({.mark_vertices = {{0, inside}}}), Cause::bad_boundary);
-    EXPECT_EQ(cause({.mark_vertices = {{0, -5}}}), Cause::bad_boundary);
+    OntoOptions loops, marks, inner, none;
+    loops.loops = {{0, 3}};
+    marks.marks = {{0, 0, 0.0}};
+    inner.mark_vertices = {{0, inside}};
+    none.mark_vertices = {{0, -5}};
+    EXPECT_EQ(cause(loops), Cause::bad_option);
+    EXPECT_EQ(cause(marks), Cause::bad_option);
+    EXPECT_EQ(cause(inner), Cause::bad_boundary);
+    EXPECT_EQ(cause(none), Cause::bad_boundary);
 }
 
 }  // namespace
