@@ -109,7 +109,7 @@ std::optional<SlidingStart> coarse_sliding_start(const Surface& source, const Ci
     const ExtremalMapOnto solved = problem.solve(target);
 
     SlidingStart result;
-    result.rotation = solved.rotation;
+    result.move = solved.move;
     result.path = solved.path;
     for (Waypoint& waypoint : result.path)
         waypoint.loop = static_cast<int>(std::find(partner.begin(), partner.end(), waypoint.loop) - partner.begin());

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 
 #include <beltrami/differentials/dimension.h>
@@ -83,16 +82,8 @@ OntoProblem::Prepared OntoProblem::prepare(const Surface& source, const OntoOpti
             throw Error(Cause::bad_boundary,
                         "the marked vertex " + std::to_string(mark.vertex) + " is not on the boundary of the source",
                         "mark boundary vertices only", {mark.vertex});
-    // Any values will do: only edges between boundary vertices are split.
-    BoundaryCondition boundary;
-    const auto& all = source.topology.boundary_loops;
-    for (std::size_t l = 0; l < all.size(); ++l)
-        for (std::size_t i = 0; i < all[l].size(); ++i)
-            boundary.pin(all[l][i],
-                         std::polar(1.0 + static_cast<double>(l), 2 * std::numbers::pi * static_cast<double>(i) /
-                                                                      static_cast<double>(all[l].size())));
     Prepared result;
-    SplitProblem split = split_prescribed(source, boundary);
+    SplitProblem split = split_bridges(source);
     if (split.split_edges == 0) return result;
     result.surface = surface_of(split.mesh, split.metric);
     result.split = std::move(split);
@@ -116,7 +107,7 @@ ExtremalMapOnto OntoProblem::solve(const TargetModel& target) {
     hold_what_conformal_maps_move(start.loops, options_.outer_loop, marked_.size());
     ExtremalMapOnto result;
     result.start = start.map;
-    result.rotation = start.rotation;
+    result.move = start.move;
     result.path = start.path;
     result.led = start.led;
     result.start_flips = start.flips;
