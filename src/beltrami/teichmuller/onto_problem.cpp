@@ -20,9 +20,12 @@ namespace {
 constexpr int kExpectedFactorizations = 6;
 /// k, of second order in the direction of φ, settles to this part of the tolerance.
 constexpr double kToleranceOfK = 0.01;
-/// Newton steps of the boundary after the iteration, until no vertex moves by more than this part of its curve.
+/// Newton steps of the boundary after the iteration, each solved to this, until one moves no vertex by more than this
+/// part of its curve.
 constexpr int kLastSteps = 10;
 constexpr double kSettled = 1e-9;
+/// … or by so little that what the step has left over is below that: the next one moves them by less than a hundredth.
+constexpr double kLastMovement = 1e-7;
 /// Newton steps of the boundary where there are no differentials: the map is conformal.
 constexpr int kConformalSteps = 100;
 /// Points of the c-step on large meshes, and what sharper differences of φ ask for.
@@ -161,7 +164,7 @@ void OntoProblem::iterate(OntoDifferentials phi, SlidingBoundary& boundary, Slid
     for (int i = 0; i < kLastSteps && iteration.converged(); ++i) {
         step.solve(nu, result.map, kSettled);
         ++result.iterations;
-        if (step.movement() < kSettled) break;
+        if (step.movement() < kLastMovement) break;
     }
     result.distortion = distortion(source_.operators, result.map);
     if (options_.remove_folds && !result.distortion.flipped.empty()) {
