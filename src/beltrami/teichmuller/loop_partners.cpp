@@ -101,16 +101,16 @@ LoopPartners loop_partners(const Surface& source, const CircleDomainChart& chart
     } else {
         result.curves = given_curves(options, loops);
     }
-    if (options.waypoints) return only_turned(result, chart, target, options);
+    if (options.waypoints) return turned(result, chart, target, options);
     for (const RoundHole& hole : chart.holes)
         places.push_back(
             {hyperbolic_circle(hole).centre, hyperbolic_circle(target.circle(result.curves[hole.loop])).centre});
     move_domain(chart, best_move(places), result);
-    return is_drawn(source, chart, result) ? result : only_turned(result, chart, target, options);
+    return is_drawn(source, chart, result) ? result : turned(result, chart, target, options);
 }
 
-LoopPartners only_turned(const LoopPartners& partners, const CircleDomainChart& chart, const TargetModel& target,
-                         const OntoOptions& options) {
+LoopPartners turned(const LoopPartners& partners, const CircleDomainChart& chart, const TargetModel& target,
+                    const OntoOptions& options) {
     std::vector<PlacePair> centres;
     for (const RoundHole& hole : chart.holes)
         centres.push_back({hole.centre, target.circle(partners.curves[hole.loop]).centre});

@@ -23,7 +23,7 @@ LoopPartners loop_partners(const Surface& source, const CircleDomainChart& chart
                            const OntoOptions& options);
 
 /// The same partners with the source's circle domain only turned, where no places are marked.
-LoopPartners only_turned(const LoopPartners& partners, const CircleDomainChart& chart, const TargetModel& target,
-                         const OntoOptions& options);
+LoopPartners turned(const LoopPartners& partners, const CircleDomainChart& chart, const TargetModel& target,
+                    const OntoOptions& options);
 
 }  // namespace beltrami

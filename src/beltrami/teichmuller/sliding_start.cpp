@@ -18,7 +18,6 @@ namespace {
 constexpr double kTwoPi = 2 * std::numbers::pi;
 /// Steps on the way of the holes, as part of a straight piece: one that folds is halved.
 constexpr double kLargestStep = 0.5;
-
 /// Loops that would turn by less, in radians, are not twisted.
 constexpr double kTwisted = 0.1;
 
@@ -109,8 +108,8 @@ struct Placement {
     Eigen::VectorXcd harmonic;
 };
 
-Placement place(const Surface& source, const TargetModel& target, const OntoOptions& options,
-                const LoopPartners& matched) {
+Placement place(const LoopPartners& matched, const Surface& source, const TargetModel& target,
+                const OntoOptions& options) {
     const auto& loops = source.topology.boundary_loops;
     Placement result;
     for (std::size_t l = 0; l < loops.size(); ++l) {
@@ -132,9 +131,11 @@ Placement place(const Surface& source, const TargetModel& target, const OntoOpti
 }
 
 /// A map of the model carried to the target.
-SlidingStart started(const Surface& source, const TargetModel& target, const Placement& placed,
-                     const Eigen::VectorXcd& map) {
+SlidingStart started(const LoopPartners& matched, const Surface& source, const TargetModel& target,
+                     const Placement& placed, const Eigen::VectorXcd& map) {
     SlidingStart result;
+    result.curves = matched.curves;
+    result.move = matched.move;
     result.loops = placed.loops;
     result.map = target.places(map);
     for (const SlidingLoop& sliding : result.loops) {
@@ -146,7 +147,7 @@ SlidingStart started(const Surface& source, const TargetModel& target, const Pla
 }
 
 /// Options whose loops start turned further, if any is to be turned noticeably.
-std::optional<OntoOptions> turned(const OntoOptions& options, const std::vector<double>& turns) {
+std::optional<OntoOptions> turned_further(const OntoOptions& options, const std::vector<double>& turns) {
     if (std::none_of(turns.begin(), turns.end(), [](double turn) { return std::abs(turn) > kTwisted; })) return {};
     OntoOptions result = options;
     result.start_turns.resize(turns.size(), 0);
@@ -164,17 +165,16 @@ std::vector<Waypoint> in_model(const TargetModel& target, const std::vector<Wayp
 /// The start from the circle domain as it was moved.
 SlidingStart start_from(const LoopPartners& matched, const Surface& source, const TargetModel& target,
                         const OntoOptions& options) {
-    Placement placed = place(source, target, options, matched);
+    Placement placed = place(matched, source, target, options);
     const int flips = folded(source, placed.harmonic);
     int factorizations = 1;
     // Waypoints and marks say how the map is to be twisted.
     if (flips > 0 && !options.waypoints && options.marks.empty()) {
-        SlidingStart twisted = started(source, target, placed, placed.harmonic);
-        twisted.curves = matched.curves;
-        const Untwisting loops = untwisting(source, target, twisted, options.outer_loop);
+        const Untwisting loops =
+            untwisting(source, target, started(matched, source, target, placed, placed.harmonic), options.outer_loop);
         factorizations += loops.factorizations;
-        if (const auto turns = turned(options, loops.turns)) {
-            placed = place(source, target, *turns, matched);
+        if (const auto further = turned_further(options, loops.turns)) {
+            placed = place(matched, source, target, *further);
             ++factorizations;
         }
     }
@@ -188,9 +188,7 @@ SlidingStart start_from(const LoopPartners& matched, const Surface& source, cons
         map = followed.map;
         factorizations += followed.steps;
     }
-    SlidingStart result = started(source, target, placed, map);
-    result.curves = matched.curves;
-    result.move = matched.move;
+    SlidingStart result = started(matched, source, target, placed, map);
     result.path = std::move(path);
     result.led = lead;
     result.flips = flips;
@@ -207,11 +205,12 @@ SlidingStart sliding_start(const Surface& source, const CircleDomainChart& chart
     try {
         return start_from(matched, source, target, options);
     } catch (const Error& error) {
-        // There may be a way from the domain that is only turned; the result says which it was.
+        // Where there is no way from the moved domain there may be one from the turned one; the result says which it
+        // was.
         if (matched.move.centre == 0.0 || (error.cause() != Cause::not_solved && error.cause() != Cause::bad_boundary))
             throw;
     }
-    return start_from(only_turned(matched, chart, target, options), source, target, options);
+    return start_from(turned(matched, chart, target, options), source, target, options);
 }
 
 void hold_what_conformal_maps_move(std::vector<SlidingLoop>& loops, int outer, std::size_t marks) {
