@@ -17,6 +17,8 @@
 #include <beltrami/mesh/planar.h>
 #include <beltrami/mesh/subdivide.h>
 #include <beltrami/teichmuller/coarse_start.h>
+#include <beltrami/teichmuller/piecewise_solver.h>
+#include <beltrami/teichmuller/prepared_problem.h>
 #include <beltrami/teichmuller/problem.h>
 #include <beltrami/teichmuller/solution_bounds.h>
 
@@ -60,47 +62,17 @@ constexpr double kInaccurateChart = 0.03;
 /// of them poles in its own coordinates do better.
 constexpr double kSharp = 0.5;
 constexpr int kFewCorners = 12;
-/// By so much a corner's bound must exceed K.
-constexpr double kCornerMargin = 0.01;
 /// Edges between two corners that are taken at their word.
 constexpr int kResolvedEdges = 12;
 
 /// Samples that a map turns over or collapses.
 int folded_samples(const Eigen::VectorXcd& mu) {
-    return static_cast<int>(
-        std::count_if(mu.begin(), mu.end(), [](Complex value) { return !(std::norm(value) < 1); }));
+    return static_cast<int>(std::count_if(mu.begin(), mu.end(), [](Complex value) { return !(std::norm(value) < 1); }));
 }
 
 /// Prescribed vertices of @p map put in their places.
 void prescribe(Eigen::VectorXcd& map, const BoundaryCondition& boundary) {
     for (std::size_t i = 0; i < boundary.vertices.size(); ++i) map[boundary.vertices[i]] = boundary.images[i];
-}
-
-/// The problem on a mesh that no prescription nails down.
-struct Prepared {
-    std::optional<SplitProblem> split;
-    std::optional<Surface> surface;  ///< of split
-};
-
-Prepared prepare(const Surface& source, const BoundaryCondition& boundary, const ExtremalOptions& options) {
-    options.validate();
-    require_genus_zero(source);
-    validate(boundary, source);
-    require_whole_boundary(boundary, source);
-    require_feasible(source, boundary, options.outer_loop);
-    const std::size_t loops = source.topology.boundary_loops.size();
-    if (!options.turns.empty() && options.turns.size() != loops)
-        throw Error(Cause::bad_option,
-                    "turns are given for " + std::to_string(options.turns.size()) +
-                        " boundary loops, the surface has " + std::to_string(loops),
-                    "give one number per loop, 0 for the outer one");
-    Prepared result;
-    if (!options.split_prescribed) return result;
-    SplitProblem split = split_prescribed(source, boundary);
-    if (split.split_edges == 0) return result;
-    result.surface = surface_of(split.mesh, split.metric);
-    result.split = std::move(split);
-    return result;
 }
 
 /// Whether the outer loop of a planar source lies on a circle.
@@ -126,7 +98,7 @@ bool far_from_conformal(const Surface& source, const Chart& chart) {
 struct ExtremalSolver::Implementation {
     ExtremalOptions options;
     BoundaryCondition boundary;
-    Prepared prepared;
+    PreparedProblem prepared;
     const Surface& source;
     ExtremalProblem problem;
     HamiltonState state;
@@ -144,10 +116,10 @@ struct ExtremalSolver::Implementation {
     bool converged = false;
     int other_factorizations = 0;  // of the chart and the finish
 
-    Implementation(const Surface& given, const BoundaryCondition& b, const ExtremalOptions& o)
+    Implementation(const Surface& given, const BoundaryCondition& b, const ExtremalOptions& o, PreparedProblem p)
         : options(o),
           boundary(b),
-          prepared(prepare(given, boundary, options)),
+          prepared(std::move(p)),
           source(prepared.surface ? *prepared.surface : given),
           problem(source, boundary, kExpectedFactorizations) {
         if (prepared.split)
@@ -205,10 +177,6 @@ struct ExtremalSolver::Implementation {
     void choose_start(bool smooth) {
         map = problem.harmonic();
         if (options.start) {
-            if (options.start->size() != source.mesh.vertex_count() - added())
-                throw Error(Cause::bad_option, "the start has " + std::to_string(options.start->size()) +
-                                                   " values for " +
-                                                   std::to_string(source.mesh.vertex_count() - added()) + " vertices");
             map = prepared.split ? with_parents_means(*options.start, prepared.split->parents) : *options.start;
             prescribe(map, boundary);
         } else if (options.waypoints) {
@@ -223,17 +191,15 @@ struct ExtremalSolver::Implementation {
         }
     }
 
-    int added() const { return prepared.split ? static_cast<int>(prepared.split->parents.size()) : 0; }
-
     /// Runs the iteration from where it stands.
     void iterate(HamiltonIteration::Options how) {
         how.near_last_factor = state.space && problem.solver().factorization_count() > 1;
         HamiltonIteration iteration(source, problem.map_step(), problem.coefficient_step(), how);
         // Only a run from nothing needs a space to begin with, and its basis is costly.
         iteration.run(state, map,
-                      state.space ? nullptr
-                                  : problem.starting_space(
-                                        PolynomialSpace::largest_degree(source.operators.sample_count())));
+                      state.space
+                          ? nullptr
+                          : problem.starting_space(PolynomialSpace::largest_degree(source.operators.sample_count())));
         map = iteration.map();
         step = iteration.last_step();
         converged = iteration.converged();
@@ -318,14 +284,28 @@ struct ExtremalSolver::Implementation {
     ExtremalMap record() const;
 };
 
-ExtremalSolver::ExtremalSolver(const Surface& source, const BoundaryCondition& boundary, const ExtremalOptions& options)
-    : implementation_(std::make_unique<Implementation>(source, boundary, options)) {}
+ExtremalSolver::ExtremalSolver(const Surface& source, const BoundaryCondition& boundary,
+                               const ExtremalOptions& options) {
+    PreparedProblem prepared = prepare(source, boundary, options);
+    ProblemPieces cut;
+    // A class that is asked for is one of the whole.
+    if (options.turns.empty() && !options.waypoints)
+        cut = pieces_of(prepared.surface ? *prepared.surface : source, boundary);
+    if (cut.pieces.empty()) {
+        implementation_ = std::make_unique<Implementation>(source, boundary, options, std::move(prepared));
+        if (!cut.obstacle.empty()) implementation_->warnings.push_back(cut.obstacle);
+    } else {
+        pieces_ =
+            std::make_unique<PiecewiseSolver>(source, boundary, options, std::move(prepared), std::move(cut.pieces));
+    }
+}
 ExtremalSolver::~ExtremalSolver() = default;
 ExtremalSolver::ExtremalSolver(ExtremalSolver&&) noexcept = default;
 
 ExtremalSolver::Update ExtremalSolver::update(const std::vector<Complex>& images, int max_iterations) {
-    Implementation& m = *implementation_;
     if (max_iterations < 1) throw Error(Cause::bad_option, "an update needs at least one iteration");
+    if (pieces_) return pieces_->update(images, max_iterations);
+    Implementation& m = *implementation_;
     if (images.size() != m.boundary.images.size())
         throw Error(Cause::bad_boundary, "there are " + std::to_string(images.size()) + " new images for " +
                                              std::to_string(m.boundary.images.size()) + " prescribed vertices");
@@ -344,6 +324,7 @@ ExtremalSolver::Update ExtremalSolver::update(const std::vector<Complex>& images
 }
 
 ExtremalMap ExtremalSolver::solve() {
+    if (pieces_) return pieces_->solve();
     Implementation& m = *implementation_;
     using Evening = ExtremalOptions::Evening;
     m.history.clear();
@@ -419,13 +400,9 @@ ExtremalMap ExtremalSolver::Implementation::record() const {
             result.sharpest = corner;
     if (result.sharpest) {
         result.bounds.push_back({"corner", result.sharpest->safe_bound, Bound::Of::extremal, false});
-        if (converged && result.sharpest->safe_bound > (1 + kCornerMargin) * result.K) {
+        if (converged && corner_decides(*result.sharpest, result.K)) {
             result.termination = Termination::not_teichmuller;
-            result.warnings.push_back("at vertex " + std::to_string(result.sharpest->vertex) +
-                                      " the boundary values alone force K ≥ " +
-                                      std::to_string(result.sharpest->safe_bound) +
-                                      ": the extremal map is not of Teichmüller type; gentler speed there "
-                                      "(--speed conformal) or other boundary values would lower K");
+            result.warnings.push_back(corner_warning(*result.sharpest));
         }
     }
     result.bounds.push_back({"mesh_harmonic", mesh_harmonic_bound(operators, result.harmonic), Bound::Of::mesh, true});
