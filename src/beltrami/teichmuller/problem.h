@@ -28,8 +28,11 @@ class ExtremalProblem {
     const Eigen::VectorXcd& harmonic() const { return harmonic_; }
     const Chart& chart() const { return chart_; }
     CoefficientStep& coefficient_step() { return *coefficient_step_; }
-    /// Whether φ may be singular within reach of the mesh: at corners or pinned points.
-    bool singular() const { return !singularities_.corners.empty() || !singularities_.pins.empty(); }
+    /// Whether φ may be singular within reach of the mesh: at corners, pinned points or curves.
+    bool singular() const {
+        return !(singularities_.corners.empty() && singularities_.pins.empty() && singularities_.curves.empty() &&
+                 singularities_.held.empty());
+    }
     /// Rotation of the chart that turns with the source when the boundary values are carried along.
     double phase() const { return phase_; }
 
