@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include <beltrami/generate/grids.h>
+#include <beltrami/mesh/error.h>
 #include <beltrami/teichmuller/extremal_solver.h>
 
 #include "support/extremal.h"
@@ -55,6 +56,109 @@ TEST(PinnedCurves, CutASquareIntoAffinePieces) {
     std::sort(K.begin(), K.end());
     EXPECT_NEAR(K[0], 1.3, 1e-8);
     EXPECT_NEAR(K[1], 0.5 / 0.35, 1e-8);
+}
+
+TEST(PinnedCurves, FollowAMovingBoundary) {
+    bench::Problem problem = bent_square(24, 0.35);
+    for (const int v : middle_line(problem)) problem.boundary.pin(v, (*problem.exact)[v]);
+    const Surface surface(problem.mesh);
+    ExtremalSolver solver(surface, problem.boundary);
+    solver.solve();
+    const bench::Problem other = bent_square(24, 0.4);
+    std::vector<Complex> images;
+    for (const int v : problem.boundary.vertices) images.push_back((*other.exact)[v]);
+    const ExtremalSolver::Update update = solver.update(images, 6);
+    EXPECT_EQ(update.flipped, 0);
+    EXPECT_LT((update.map - *other.exact).cwiseAbs().maxCoeff(), 1e-6);
+    EXPECT_NEAR(update.k, 1.0 / 9, 1e-6);
+    EXPECT_NEAR(solver.solve().K, 1.25, 1e-8);
+    images.pop_back();
+    EXPECT_THROW(solver.update(images), Error);
+}
+
+TEST(PinnedCurves, HeldToTheirLineOnlyLeaveTheLargestK) {
+    // φ = −1 on the compressed side and 0 on the other jumps by a real amount along the line.
+    for (const auto& [n, tolerance] : {std::pair(24, 3e-3), std::pair(48, 1.5e-3)}) {
+        bench::Problem problem = bent_square(n, 0.35);
+        for (const int v : middle_line(problem)) problem.boundary.pin_to_line(v, 0.35, Complex(0, 1));
+        const test::Solved solved = test::solve(problem);
+        expect_sound(solved.result);
+        EXPECT_TRUE(solved.result.pieces.empty());
+        EXPECT_TRUE(solved.result.warnings.empty());
+        EXPECT_NEAR(solved.result.K_lower, solved.exact_K, tolerance * solved.exact_K);
+        EXPECT_NEAR(solved.result.K, solved.exact_K, tolerance * solved.exact_K);
+        EXPECT_FALSE(solved.result.bounds[0].rigorous);
+    }
+}
+
+TEST(PinnedCurves, ThatEndInsideLieBetweenNoneAndAWholeOne) {
+    double last = test::solve(bent_square(24, 0.35)).result.K;
+    for (const double top : {0.3, 0.6, 0.9}) {
+        bench::Problem problem = bent_square(24, 0.35);
+        for (const int v : middle_line(problem))
+            if (problem.mesh.positions(v, 1) < top) problem.boundary.pin(v, (*problem.exact)[v]);
+        const ExtremalMap result = test::solve(problem).result;
+        expect_sound(result);
+        EXPECT_TRUE(result.pieces.empty());
+        EXPECT_TRUE(result.bounds[0].rigorous);
+        EXPECT_GT(result.K_lower, last) << top;
+        EXPECT_LT(result.K, 1.005 * result.K_lower) << top;
+        EXPECT_LT(result.K_lower, 0.5 / 0.35);
+        last = result.K;
+    }
+}
+
+/// The exact composition with the vertices of a part of the real axis pinned to their images, or held to the axis.
+bench::Problem on_the_axis(double edge_length, double from, double to, bool held) {
+    bench::Problem problem = bench::exact_composition(edge_length);
+    const Topology shape = topology(problem.mesh);
+    for (int v = 0; v < problem.mesh.vertex_count(); ++v) {
+        const Complex z = bench::place(problem.mesh, v);
+        if (shape.on_boundary[v] || std::abs(z.imag()) > 1e-12 || z.real() < from || z.real() > to) continue;
+        if (held)
+            problem.boundary.pin_to_line(v, 0, 1);
+        else
+            problem.boundary.pin(v, (*problem.exact)[v]);
+    }
+    return problem;
+}
+
+TEST(PinnedCurves, OfTheExactMapChangeNothing) {
+    for (const bool held : {false, true})
+        for (const auto& [from, to] : {std::pair(-0.7, 0.7), std::pair(-2.0, 0.2), std::pair(-2.0, 2.0)}) {
+            const test::Solved solved = test::solve(on_the_axis(0.035, from, to, held));
+            expect_sound(solved.result);
+            EXPECT_EQ(solved.result.pieces.size(), !held && to == 2 ? 2u : 0u);
+            EXPECT_NEAR(solved.result.k, 0.5, 1e-3) << held << from << to;
+            EXPECT_NEAR(solved.result.K_lower, 3, 0.01);
+        }
+}
+
+TEST(PinnedCurves, AHeldVertexFindsTheBestPlaceOnItsLine) {
+    // Held to a line beside its exact image: K is the least of those of the places on the line.
+    bench::Problem problem = bench::exact_composition(0.08);
+    const int v = test::inner_vertex_near(problem.mesh, {0.3, 0.3});
+    const Complex direction = std::polar(1.0, 0.9), point = (*problem.exact)[v] + 0.25 * Complex(0, 1) * direction;
+    const auto K_at = [&](double t) {
+        bench::Problem pinned = problem;
+        pinned.boundary.pin(v, point + t * direction);
+        return test::solve(pinned).result.K_lower;
+    };
+    double low = -0.5, high = 0.5;
+    for (int i = 0; i < 14; ++i) {
+        const double a = low + (high - low) / 3, b = high - (high - low) / 3;
+        if (K_at(a) < K_at(b))
+            high = b;
+        else
+            low = a;
+    }
+    const double best = K_at(0.5 * (low + high));
+    ASSERT_GT(best, 1.02 * test::solve(problem).result.K);
+    problem.boundary.pin_to_line(v, point, direction);
+    const ExtremalMap held = test::solve(problem).result;
+    expect_sound(held);
+    EXPECT_NEAR(held.K_lower, best, 0.01 * best);
+    EXPECT_NEAR(std::real((held.map[v] - point) * std::conj(direction)), 0.5 * (low + high), 0.03);
 }
 
 }  // namespace

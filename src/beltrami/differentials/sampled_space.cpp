@@ -1,5 +1,6 @@
 #include <beltrami/differentials/sampled_space.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -19,6 +20,7 @@ constexpr double kCellSize = 0.018;
 constexpr double kCellSlope = 0.25, kHoleSlope = 0.06, kSmallestCell = 1e-4;
 constexpr int kNodes = 4;
 constexpr int kCellsPerChunk = 64;
+constexpr int kMeansAtOnce = 4096;
 
 /// i^q, the directions of the nodes.
 Complex node_direction(int q) {
@@ -27,6 +29,17 @@ Complex node_direction(int q) {
 }
 
 }  // namespace
+
+void take_means(const DifferentialSpace& space, const SamplePoints& means, Eigen::MatrixXcd& values) {
+    const int points = static_cast<int>(means.samples.size());
+    for (const int s : means.samples) values.row(s).setZero();
+    for (int first = 0; first < points; first += kMeansAtOnce) {
+        const int count = std::min(kMeansAtOnce, points - first);
+        const Eigen::MatrixXcd part = space.generators(
+            {means.points.positions.segment(first, count), means.points.derivatives.segment(first, count)});
+        for (int i = 0; i < count; ++i) values.row(means.samples[first + i]) += means.weights[first + i] * part.row(i);
+    }
+}
 
 SampledSpace::SampledSpace(const Chart& chart, const Singularities& singularities, double phase) : chart_(chart) {
     const auto samples = chart.positions.size();
@@ -51,6 +64,7 @@ void SampledSpace::set(const DifferentialSpace& space) {
     if (mode_ == Mode::afresh) return;
     if (mode_ == Mode::dense) {
         Eigen::MatrixXcd values = space.generators({chart_.positions, chart_.derivatives});
+        take_means(space, means_, values);
         for (Eigen::Index s = 0; s < values.rows(); ++s)
             if (chart_.excluded[s]) values.row(s).setZero();
         values_ = SplitMatrix(values);

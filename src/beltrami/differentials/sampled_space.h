@@ -6,6 +6,16 @@
 
 namespace beltrami {
 
+/// Points that stand for samples where one point a sample is not enough.
+struct SamplePoints {
+    std::vector<int> samples;  ///< sample of every point, ascending
+    ChartPoints points;
+    Eigen::VectorXd weights;  ///< parts of the sample: 1 in all
+};
+
+/// Rows of the samples that have such points replaced by means over these. @param values #S × #generators of @p space
+void take_means(const DifferentialSpace& space, const SamplePoints& means, Eigen::MatrixXcd& values);
+
 /// A space of differentials on the samples of a mesh: values of a combination at every sample, and pairings of every
 /// basis function with weights at the samples.
 ///
@@ -18,6 +28,9 @@ class SampledSpace {
     /// @param chart kept by reference
     /// @param phase rotation of the grid, tied to the data so that turning the source changes nothing
     SampledSpace(const Chart& chart, const Singularities& singularities, double phase);
+
+    /// Values at some samples are means over points of theirs from now on, as far as values are kept for every sample.
+    void set_means(SamplePoints means) { means_ = std::move(means); }
 
     /// Makes another space the current one; kept by reference until the next call.
     void set(const DifferentialSpace& space);
@@ -37,6 +50,7 @@ class SampledSpace {
     ChartPoints chunk(int first, int last) const;
 
     const Chart& chart_;
+    SamplePoints means_;
     const DifferentialSpace* space_ = nullptr;
     Mode mode_ = Mode::dense;
     ChartGrid grid_{{}, {0}, {}, {}};

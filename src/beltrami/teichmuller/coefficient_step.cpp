@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <beltrami/mesh/parallel.h>
+#include <beltrami/teichmuller/differential_quadrature.h>
 
 namespace beltrami {
 
@@ -34,15 +35,77 @@ CoefficientStep::CoefficientStep(const Surface& source, const Chart& chart, cons
       chart_(chart),
       sampled_(chart, singularities, phase),
       clusters_(cluster_samples(source.operators, chart, singularities, phase, cluster_count)) {
+    soft_ = !singularities.curves.empty();
+    SamplePoints means = points_near(singularities, source, chart);
+    set_quadrature(means);
+    sampled_.set_means(std::move(means));
     double area = 0;
     for (const double a : clusters_.squared) area += a;
     edge_ = std::sqrt(area / static_cast<double>(source.operators.sample_count()));
 }
 
+/// The clusters' points, or those of a cluster's only sample where it has several.
+void CoefficientStep::set_quadrature(const SamplePoints& means) {
+    const auto clusters = clusters_.points.positions.size();
+    std::vector<int> samples(clusters, 0);
+    std::vector<double> area(clusters, 0.0);
+    for (std::size_t s = 0; s < clusters_.cluster.size(); ++s)
+        if (clusters_.cluster[s] >= 0) {
+            ++samples[clusters_.cluster[s]];
+            area[clusters_.cluster[s]] += clusters_.squared[s];
+        }
+    std::vector<Complex> places;
+    std::vector<double> parts, weights;
+    std::vector<char> divided(clusters, 0);
+    for (std::size_t i = 0; i < means.samples.size(); ++i) {
+        const int cluster = clusters_.cluster[means.samples[i]];
+        if (cluster < 0 || samples[cluster] != 1) continue;
+        divided[cluster] = 1;
+        cluster_means_.samples.push_back(cluster);
+        places.push_back(means.points.positions[static_cast<Eigen::Index>(i)]);
+        parts.push_back(means.weights[static_cast<Eigen::Index>(i)]);
+        weights.push_back(parts.back() * area[cluster]);
+    }
+    const auto count = static_cast<Eigen::Index>(places.size());
+    cluster_means_.points.positions = Eigen::Map<const Eigen::VectorXcd>(places.data(), count);
+    cluster_means_.points.derivatives = Eigen::VectorXcd::Ones(count);
+    cluster_means_.weights = Eigen::Map<const Eigen::VectorXd>(parts.data(), count);
+    for (Eigen::Index q = 0; q < clusters; ++q)
+        if (!divided[q]) {
+            places.push_back(clusters_.points.positions[q]);
+            weights.push_back(area[q]);
+        }
+    const auto all = static_cast<Eigen::Index>(places.size());
+    quadrature_ = {Eigen::Map<const Eigen::VectorXcd>(places.data(), all),
+                   Eigen::Map<const Eigen::VectorXd>(weights.data(), all)};
+}
+
 void CoefficientStep::set_space(const DifferentialSpace& space) {
     sampled_.set(space);
-    problem_.basis = space.evaluate(clusters_.points);
+    problem_.basis = space.generators(clusters_.points);
+    take_means(space, cluster_means_, problem_.basis);
+    if (space.transform()) problem_.basis = complex_product(problem_.basis, *space.transform());
     problem_.complex_coefficients = space.complex_coefficients();
+}
+
+Eigen::VectorXcd CoefficientStep::coefficient(double k, const Eigen::VectorXcd& phi) const {
+    double delta = 0;
+    if (soft_) {
+        double sum = 0, area = 0;
+        for (Eigen::Index s = 0; s < phi.size(); ++s) {
+            if (chart_.excluded[s]) continue;
+            sum += source_.operators.weights[s] * std::abs(phi[s]);  // |ψ| by area in the domain
+            area += clusters_.squared[s];
+        }
+        delta = area > 0 ? std::max(least_rounding_, kRounding * edge_) * sum / area : 0.0;
+    }
+    Eigen::VectorXcd nu(phi.size());
+    for (Eigen::Index s = 0; s < phi.size(); ++s) {
+        const double rounded = delta * std::norm(chart_.derivatives[s]);
+        const double size = std::sqrt(std::norm(phi[s]) + rounded * rounded);
+        nu[s] = size > 0 ? k * std::conj(phi[s]) / size : 0.0;
+    }
+    return nu;
 }
 
 namespace {

@@ -62,6 +62,9 @@ constexpr double kInaccurateChart = 0.03;
 /// of them poles in its own coordinates do better.
 constexpr double kSharp = 0.5;
 constexpr int kFewCorners = 12;
+/// Directions of held vertices that turn by less (radians) are kept, and they are followed so often.
+constexpr double kTurned = 0.02;
+constexpr int kMostTurns = 4;
 /// Edges between two corners that are taken at their word.
 constexpr int kResolvedEdges = 12;
 
@@ -113,6 +116,7 @@ struct ExtremalSolver::Implementation {
     std::vector<Iteration> history;
     std::vector<BoundaryCorner> corners;
     std::vector<LoopPath> paths;  // along which turns are counted
+    HeldVertices held_alone;      // as the space of differentials has them
     bool converged = false;
     int other_factorizations = 0;  // of the chart and the finish
 
@@ -129,7 +133,8 @@ struct ExtremalSolver::Implementation {
         Chart chart = best_chart();
         other_factorizations += chart.factorizations;
         warnings.insert(warnings.end(), chart.warnings.begin(), chart.warnings.end());
-        Singularities singularities = singularities_of(source, chart, boundary, corners);
+        Singularities singularities = singularities_of(source, chart, boundary, corners, problem.harmonic());
+        held_alone = held_vertices(source, chart, boundary, problem.harmonic());
         const bool smooth = singularities.empty();
         problem.set_chart(std::move(chart), std::move(singularities), options.cluster_count);
         if (source.topology.boundary_loops.size() > 1)
@@ -191,8 +196,29 @@ struct ExtremalSolver::Implementation {
         }
     }
 
+    /// Whether vertices that are held to lines one by one move otherwise under the map than φ takes them to.
+    bool held_have_turned() const {
+        const HeldVertices now = held_vertices(source, problem.chart(), boundary, map);
+        for (std::size_t i = 0; i < now.vertices.size(); ++i)
+            if (std::abs(std::imag(now.directions[i] * std::conj(held_alone.directions[i]))) > kTurned) return true;
+        return false;
+    }
+
+    /// Runs the iteration, with poles that follow the map at vertices held to lines one by one.
+    void iterate(const HamiltonIteration::Options& how) {
+        iterate_once(how);
+        for (int turn = 0; turn < kMostTurns && held_have_turned(); ++turn) {
+            held_alone = held_vertices(source, problem.chart(), boundary, map);
+            Chart chart = problem.chart();
+            Singularities singularities = singularities_of(source, chart, boundary, corners, map);
+            problem.set_chart(std::move(chart), std::move(singularities), options.cluster_count);
+            state = {};
+            iterate_once(how);
+        }
+    }
+
     /// Runs the iteration from where it stands.
-    void iterate(HamiltonIteration::Options how) {
+    void iterate_once(HamiltonIteration::Options how) {
         how.near_last_factor = state.space && problem.solver().factorization_count() > 1;
         HamiltonIteration iteration(source, problem.map_step(), problem.coefficient_step(), how);
         // Only a run from nothing needs a space to begin with, and its basis is costly.
@@ -411,10 +437,6 @@ ExtremalMap ExtremalSolver::Implementation::record() const {
         result.warnings.push_back("flipped faces in the result: " + std::to_string(result.distortion.flipped.size()) +
                                   "; it is not one-to-one there" +
                                   (result.K_lower > 1 ? "" : " and no lower bound can be given"));
-    if (!boundary.lines.empty())
-        result.warnings.push_back(
-            "vertices are held to lines, at which the quadratic differential has no poles: K_lower holds, but K need "
-            "not be near K*");
     if (result.termination == Termination::iteration_limit)
         result.warnings.push_back("stopped after " + std::to_string(result.iterations) +
                                   " iterations before k and φ settled");

@@ -115,8 +115,7 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
     double last_change = 1, relaxation = 1;
     bool accelerated = false;
     while (iterations_ < options_.max_iterations) {
-        const Eigen::VectorXcd phi = coefficient_step_.values(state.direction),
-                               nu = teichmueller_coefficient(state.k, phi);
+        const Eigen::VectorXcd nu = coefficient_step_.coefficient(state.k, coefficient_step_.values(state.direction));
         if (near_last_factor) {
             map_ = solver.solve_near(nu, map_step_.prescribed, map_, kSolveBelowChange * std::min(change, 0.1));
         } else {

@@ -94,12 +94,8 @@ void ExtremalProblem::set_chart(Chart chart, Singularities singularities, int cl
 
 std::unique_ptr<DifferentialSpace> ExtremalProblem::starting_space(int largest_degree) const {
     if (singularities_.empty()) return PolynomialSpace::starting_space(largest_degree);
-    const SampleClusters& clusters = coefficient_step_->clusters();
-    RationalSpace::Quadrature quadrature{clusters.points.positions,
-                                         Eigen::VectorXd::Zero(clusters.points.positions.size())};
-    for (std::size_t s = 0; s < clusters.cluster.size(); ++s)
-        if (clusters.cluster[s] >= 0) quadrature.weights[clusters.cluster[s]] += clusters.squared[s];
-    return RationalSpace::starting_space(singularities_, std::move(quadrature), largest_degree);
+    const QuadraturePoints& quadrature = coefficient_step_->quadrature();
+    return RationalSpace::starting_space(singularities_, {quadrature.points, quadrature.weights}, largest_degree);
 }
 
 namespace {
@@ -134,7 +130,7 @@ std::vector<Complex> continuation(const Surface& source, const Chart& chart, con
 void add_inner(const Surface& source, const Chart& chart, const BoundaryCondition& boundary, const ChartDomain& domain,
                Singularities& result) {
     const Eigen::VectorXcd& z = chart.vertices;
-    std::vector<char> pole(source.mesh.vertex_count(), 0), on_curve(source.mesh.vertex_count(), 0);
+    std::vector<char> pole(source.mesh.vertex_count(), 0);
     for (const int v : boundary.vertices) pole[v] = !source.topology.on_boundary[v];
     std::vector<char> held(source.mesh.vertex_count(), 0);
     for (const auto& line : boundary.lines) held[line.vertex] = 1;
@@ -144,7 +140,6 @@ void add_inner(const Surface& source, const Chart& chart, const BoundaryConditio
         const auto& v = whole.vertices;
         std::vector<std::size_t> ends{0};
         for (std::size_t i = 1; i + 1 < v.size(); ++i) {
-            on_curve[v[i]] = 1;
             const Complex turn = (z[v[i + 1]] - z[v[i]]) * std::conj(z[v[i]] - z[v[i - 1]]);
             if (real && std::abs(std::arg(turn)) > kSharpBend) {
                 ends.push_back(i);
@@ -162,7 +157,6 @@ void add_inner(const Surface& source, const Chart& chart, const BoundaryConditio
                 for (const bool last : {true, false}) {
                     const int end = last ? v[to] : v[from];
                     const Complex before = z[last ? v[to - 1] : v[from + 1]];
-                    on_curve[end] = 1;
                     if (source.topology.on_boundary[end]) {
                         std::vector<Complex> outside = continuation(source, chart, domain, end, before);
                         if (last) {
@@ -187,8 +181,44 @@ void add_inner(const Surface& source, const Chart& chart, const BoundaryConditio
 
 }  // namespace
 
+HeldVertices held_vertices(const Surface& source, const Chart& chart, const BoundaryCondition& boundary,
+                           const Eigen::VectorXcd& map) {
+    HeldVertices result;
+    if (boundary.lines.empty()) return result;
+    std::vector<char> alone(source.mesh.vertex_count(), 0);
+    for (const auto& line : boundary.lines) alone[line.vertex] = 1;
+    for (const ConstraintCurve& curve : constraint_curves(boundary, source))
+        for (const int v : curve.vertices) alone[v] = 0;
+    const Eigen::VectorXcd along = line_directions(boundary, source);
+    std::vector<Complex> sum(source.mesh.vertex_count(), 0.0);
+    for (int s = 0; s < source.operators.sample_count(); ++s) {
+        const auto stencil = source.operators.stencil(s);
+        if (chart.excluded[s] || std::none_of(stencil.begin(), stencil.end(), [&](int v) { return alone[v]; }))
+            continue;
+        const auto [f_z, f_zbar] = source.operators.derivatives(s, map);
+        const auto [g_z, g_zbar] = source.operators.derivatives(s, chart.vertices);
+        const double determinant = std::norm(f_z) - std::norm(f_zbar);
+        if (!(determinant > 0)) continue;
+        const auto corners = static_cast<int>(stencil.size());
+        for (int j = 0; j < corners; ++j) {
+            const int v = stencil[j];
+            if (!alone[v]) continue;
+            const Complex moved = (std::conj(f_z) * along[v] - f_zbar * std::conj(along[v])) / determinant;
+            const Complex next = chart.vertices[stencil[(j + 1) % corners]] - chart.vertices[v],
+                          last = chart.vertices[stencil[(j + corners - 1) % corners]] - chart.vertices[v];
+            sum[v] += std::arg(last * std::conj(next)) * (g_z * moved + g_zbar * std::conj(moved));
+        }
+    }
+    for (int v = 0; v < source.mesh.vertex_count(); ++v) {
+        if (!alone[v]) continue;
+        result.vertices.push_back(v);
+        result.directions.push_back(std::abs(sum[v]) > 0 ? sum[v] / std::abs(sum[v]) : Complex(1));
+    }
+    return result;
+}
+
 Singularities singularities_of(const Surface& source, const Chart& chart, const BoundaryCondition& boundary,
-                               const std::vector<BoundaryCorner>& corners) {
+                               const std::vector<BoundaryCorner>& corners, const Eigen::VectorXcd& map) {
     Singularities result;
     for (const Chart::Hole& hole : chart.holes) {
         const int edges = static_cast<int>(source.topology.boundary_loops[hole.loop].size());
@@ -196,6 +226,9 @@ Singularities singularities_of(const Surface& source, const Chart& chart, const 
     }
     const ChartDomain domain(source, chart);
     add_inner(source, chart, boundary, domain, result);
+    const HeldVertices held = held_vertices(source, chart, boundary, map);
+    for (std::size_t i = 0; i < held.vertices.size(); ++i)
+        result.held.push_back({chart.vertices[held.vertices[i]], Complex(0, 1) * std::conj(held.directions[i])});
     // Equal corners (those of a square) in the order of the boundary, whatever rounding makes of their significance.
     std::vector<BoundaryCorner> ordered = corners;
     const auto rank = [](const BoundaryCorner& c) {

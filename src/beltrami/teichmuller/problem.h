@@ -52,7 +52,18 @@ class ExtremalProblem {
 };
 
 /// What the chart's holes, the constraints inside and the corners of domain and boundary values allow φ to have.
+/// @param map of which the derivative says where vertices may move that are held to lines one by one; those of curves
+///            move along these
 Singularities singularities_of(const Surface& source, const Chart& chart, const BoundaryCondition& boundary,
-                               const std::vector<BoundaryCorner>& corners);
+                               const std::vector<BoundaryCorner>& corners, const Eigen::VectorXcd& map);
+
+/// The vertices that are held to lines one by one, ascending, and the directions of length 1 in which they move in the
+/// chart when their images move along the lines: means over the angles at the vertex, as a pole of φ sees them.
+struct HeldVertices {
+    std::vector<int> vertices;
+    std::vector<Complex> directions;
+};
+HeldVertices held_vertices(const Surface& source, const Chart& chart, const BoundaryCondition& boundary,
+                           const Eigen::VectorXcd& map);
 
 }  // namespace beltrami
