@@ -11,6 +11,8 @@ namespace {
 constexpr int kMostLevels = 3;
 /// Gaps between the first nodes are at most this part of the curve.
 constexpr int kGapsAtFirst = 4;
+/// Edges between nodes, at least, on curves that are not too short for it: finer ones raised no bound.
+constexpr int kFinestGap = 4;
 
 /// The integrals over one edge a → b, without the factor 1/2πi, of densities that are 1 at one end and 0 at the other.
 struct EdgeIntegrals {
@@ -29,10 +31,12 @@ EdgeIntegrals edge_integrals(Complex a, Complex b, Complex z) {
 
 const Complex kFactor = Complex(0, -0.5) * std::numbers::inv_pi;
 
-/// Offsets of nodes from an end: gaps 1, 2, 4 … up to a largest one.
+/// Offsets of nodes from an end: gaps that double, from the finest up to a largest one.
 std::vector<int> graded(int reach, int largest_gap) {
     std::vector<int> nodes;
-    for (int at = 0, gap = 1; at <= reach; at += gap, gap = std::min(2 * gap, largest_gap)) nodes.push_back(at);
+    for (int at = 0, gap = std::min(kFinestGap, largest_gap); at <= reach;
+         at += gap, gap = std::min(2 * gap, largest_gap))
+        nodes.push_back(at);
     return nodes;
 }
 
@@ -76,7 +80,7 @@ CurveDensities::CurveDensities(const Singularities::Curve& curve) : curve_(curve
         first_of_level_.push_back(size());
         const std::vector<int> coarse = nodes;
         for (std::size_t i = 1; i < coarse.size(); ++i)
-            if (coarse[i] - coarse[i - 1] > 1) nodes.push_back((coarse[i] + coarse[i - 1]) / 2);
+            if (coarse[i] - coarse[i - 1] >= 2 * kFinestGap) nodes.push_back((coarse[i] + coarse[i - 1]) / 2);
     }
 }
 

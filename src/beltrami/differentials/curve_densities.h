@@ -9,7 +9,7 @@ namespace beltrami {
 /// Cauchy integrals (1/2πi) ∫ ρ(t)/(t − z) dt over a polygonal curve: functions that are holomorphic off the curve and
 /// jump by ρ across it, from its right to its left side. The densities ρ are linear between some nodes, as functions of
 /// the length along the curve: hat functions, finer towards ends of the curve, where ρ may behave like s^(−1/2). They
-/// come in levels; each halves the gaps of the one before, as far as the curve has points.
+/// come in levels; each halves the gaps of the one before, down to a few points of the curve.
 ///
 /// On a curve whose jump is to be real, ρ is a real multiple of conj(τ)², τ the curve's unit tangent, so that ρ dz² is
 /// real along it. Beyond the domain, where a curve goes on, any jump will do.

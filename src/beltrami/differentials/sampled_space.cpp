@@ -1,6 +1,5 @@
 #include <beltrami/differentials/sampled_space.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -20,7 +19,6 @@ constexpr double kCellSize = 0.018;
 constexpr double kCellSlope = 0.25, kHoleSlope = 0.06, kSmallestCell = 1e-4;
 constexpr int kNodes = 4;
 constexpr int kCellsPerChunk = 64;
-constexpr int kMeansAtOnce = 4096;
 
 /// i^q, the directions of the nodes.
 Complex node_direction(int q) {
@@ -30,15 +28,25 @@ Complex node_direction(int q) {
 
 }  // namespace
 
-void take_means(const DifferentialSpace& space, const SamplePoints& means, Eigen::MatrixXcd& values) {
-    const int points = static_cast<int>(means.samples.size());
+void take_means(const SamplePoints& means, const Eigen::MatrixXcd& at_points, Eigen::MatrixXcd& values) {
     for (const int s : means.samples) values.row(s).setZero();
-    for (int first = 0; first < points; first += kMeansAtOnce) {
-        const int count = std::min(kMeansAtOnce, points - first);
-        const Eigen::MatrixXcd part = space.generators(
-            {means.points.positions.segment(first, count), means.points.derivatives.segment(first, count)});
-        for (int i = 0; i < count; ++i) values.row(means.samples[first + i]) += means.weights[first + i] * part.row(i);
+    for (std::size_t i = 0; i < means.samples.size(); ++i) {
+        const auto point = static_cast<Eigen::Index>(i);
+        values.row(means.samples[i]) += means.weights[point] * at_points.row(point);
     }
+}
+
+void SampledSpace::set_means(SamplePoints means) {
+    if (mode_ == Mode::dense) means_ = std::move(means);
+}
+
+Eigen::VectorXcd SampledSpace::combination_at_means(const Eigen::VectorXcd& coefficients) const {
+    if (means_.samples.empty()) return {};
+    return at_means_.times(space_->of_generators(coefficients));
+}
+
+Eigen::MatrixXcd SampledSpace::pair_at_means(const Eigen::MatrixXcd& weights) const {
+    return space_->from_generators(at_means_.transposed_times(weights));
 }
 
 SampledSpace::SampledSpace(const Chart& chart, const Singularities& singularities, double phase) : chart_(chart) {
@@ -64,7 +72,11 @@ void SampledSpace::set(const DifferentialSpace& space) {
     if (mode_ == Mode::afresh) return;
     if (mode_ == Mode::dense) {
         Eigen::MatrixXcd values = space.generators({chart_.positions, chart_.derivatives});
-        take_means(space, means_, values);
+        if (!means_.samples.empty()) {
+            const Eigen::MatrixXcd at_points = space.generators(means_.points);
+            take_means(means_, at_points, values);
+            at_means_ = SplitMatrix(at_points);
+        }
         for (Eigen::Index s = 0; s < values.rows(); ++s)
             if (chart_.excluded[s]) values.row(s).setZero();
         values_ = SplitMatrix(values);

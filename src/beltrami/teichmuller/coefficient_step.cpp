@@ -83,7 +83,8 @@ void CoefficientStep::set_quadrature(const SamplePoints& means) {
 void CoefficientStep::set_space(const DifferentialSpace& space) {
     sampled_.set(space);
     problem_.basis = space.generators(clusters_.points);
-    take_means(space, cluster_means_, problem_.basis);
+    if (!cluster_means_.samples.empty())
+        take_means(cluster_means_, space.generators(cluster_means_.points), problem_.basis);
     if (space.transform()) problem_.basis = complex_product(problem_.basis, *space.transform());
     problem_.complex_coefficients = space.complex_coefficients();
 }
@@ -110,13 +111,30 @@ Eigen::VectorXcd CoefficientStep::coefficient(double k, const Eigen::VectorXcd& 
 
 namespace {
 
-/// N on every sample of the mesh.
+/// N on every sample of the mesh, and on the points of samples that have several. Values of φ: those of the samples,
+/// then those of the points.
 class SampleNorm final : public DualNorm {
   public:
     /// @param weights #S A a, 0 where the chart excludes the sample
-    SampleNorm(const SampledSpace& space, const Chart& chart, const Eigen::VectorXd& weights)
-        : space_(space), chart_(chart), weights_(weights) {}
-    Eigen::VectorXcd values(const Eigen::VectorXcd& c) const override { return space_.combination(c); }
+    SampleNorm(const SampledSpace& space, const Chart& chart, const Eigen::VectorXd& weights) : space_(space) {
+        const SamplePoints& means = space.means();
+        const Eigen::Index samples = weights.size(), points = means.weights.size();
+        weights_.resize(samples + points);
+        scales_.resize(samples + points);
+        weights_.head(samples) = weights;
+        scales_.head(samples) = chart.derivatives.cwiseAbs2();
+        weights_.tail(points) = means.weights;
+        scales_.tail(points) = means.points.derivatives.cwiseAbs2();
+        for (Eigen::Index i = 0; i < points; ++i) weights_[samples + i] *= weights[means.samples[i]];
+        for (const int s : means.samples) weights_[s] = 0;
+        samples_ = samples;
+    }
+    Eigen::VectorXcd values(const Eigen::VectorXcd& c) const override {
+        Eigen::VectorXcd all(weights_.size());
+        all.head(samples_) = space_.combination(c);
+        if (all.size() > samples_) all.tail(all.size() - samples_) = space_.combination_at_means(c);
+        return all;
+    }
     double norm(const Eigen::VectorXcd& phi, double delta) const override {
         return parallel_sum<double>(static_cast<int>(phi.size()), 0.0, [&](int first, int last) {
             double sum = 0;
@@ -132,17 +150,19 @@ class SampleNorm final : public DualNorm {
                 direction(s, 0) = of > 0 ? weights_[s] / std::sqrt(of) * std::conj(phi[s]) : 0.0;
             }
         });
-        return space_.pair(direction);
+        Eigen::VectorXcd result = space_.pair(direction.topRows(samples_));
+        if (phi.size() > samples_) result += space_.pair_at_means(direction.bottomRows(phi.size() - samples_));
+        return result;
     }
 
   private:
     double square(Complex phi, int s, double delta) const {
-        const double rounded = delta * std::norm(chart_.derivatives[s]);
+        const double rounded = delta * scales_[s];
         return std::norm(phi) + rounded * rounded;
     }
     const SampledSpace& space_;
-    const Chart& chart_;
-    const Eigen::VectorXd& weights_;
+    Eigen::VectorXd weights_, scales_;  // of samples and points: scales |derivative|²
+    Eigen::Index samples_;
 };
 
 }  // namespace
@@ -177,15 +197,15 @@ CoefficientStep::Result CoefficientStep::solve(const Eigen::VectorXcd& mu, const
     result.newton_steps = dual.newton_steps;
     const double length = dual.coefficients.norm();
     result.direction = length > 0 ? Eigen::VectorXcd(dual.coefficients / length) : dual.coefficients;
-    result.phi = length > 0 ? Eigen::VectorXcd(dual.phi / length) : dual.phi;
-    const double size = norm.norm(result.phi, 0);
+    const Eigen::VectorXcd phi = length > 0 ? Eigen::VectorXcd(dual.phi / length) : dual.phi;
+    result.phi = phi.head(samples);
+    const double size = norm.norm(phi, 0);
     if (!(size > 0)) return result;
     const double pairing = dual.pairing / length;
     result.k = dilatation_of_pairing(2 * pairing / size);
-    double plain = 0;
-    for (int s = 0; s < samples; ++s)
-        if (!chart_.excluded[s]) plain += source_.operators.weights[s] * std::abs(result.phi[s]);
-    result.merit = plain / (size - 2 * pairing);
+    Eigen::VectorXd plain(samples);
+    for (int s = 0; s < samples; ++s) plain[s] = chart_.excluded[s] ? 0.0 : source_.operators.weights[s];
+    result.merit = SampleNorm(sampled_, chart_, plain).norm(phi, 0) / (size - 2 * pairing);
     return result;
 }
 

@@ -36,8 +36,8 @@ struct Piece {
 };
 
 /// Pieces of a sample's mean are smaller than this part of their distance, or so often divided.
-constexpr double kMeanSlope = 0.5;
-constexpr int kMeanDepth = 4;
+constexpr double kMeanSlope = 0.7;
+constexpr int kMeanDepth = 3;
 constexpr int kPiecesPerChunk = 512;
 /// So many at a time, beyond the faces, or φ is no function that a mesh can resolve.
 constexpr std::size_t kMostPieces = 1 << 21;

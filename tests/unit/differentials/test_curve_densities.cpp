@@ -1,6 +1,7 @@
 #include <beltrami/differentials/curve_densities.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <cmath>
 #include <numbers>
 

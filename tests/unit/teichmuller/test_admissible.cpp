@@ -71,10 +71,12 @@ TEST_P(Admissible, DifferentialsPairWithNoMotion) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Constraints, Admissible, testing::Values(Kind::pinned, Kind::held, Kind::held_alone), [](const auto& info) {
-        return std::string(info.param == Kind::pinned ? "Pinned" : info.param == Kind::held ? "Held" : "HeldAlone");
-    });
+INSTANTIATE_TEST_SUITE_P(Constraints, Admissible, testing::Values(Kind::pinned, Kind::held, Kind::held_alone),
+                         [](const auto& instance) {
+                             return std::string(instance.param == Kind::pinned ? "Pinned"
+                                                : instance.param == Kind::held ? "Held"
+                                                                               : "HeldAlone");
+                         });
 
 }  // namespace
 }  // namespace beltrami
