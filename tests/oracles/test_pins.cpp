@@ -78,7 +78,8 @@ TEST(Pins, LinesOfTheExactMapChangeNothing) {
         EXPECT_EQ(with.result.termination, Termination::converged);
         // By symmetry the axis stays on itself without lines as well.
         EXPECT_NEAR(with.result.k, without.result.k, 1e-6);
-        EXPECT_LT((with.result.map - without.result.map).cwiseAbs().maxCoeff(), 1e-5);
+        // φ may jump across it, and does as far as the mesh's noise asks for it.
+        EXPECT_LT((with.result.map - without.result.map).cwiseAbs().maxCoeff(), 0.1 * without.vertex_error);
         for (const auto& line : problem.boundary.lines) EXPECT_LT(std::abs(with.result.map[line.vertex].imag()), 1e-12);
     }
 }

@@ -28,11 +28,9 @@ class ExtremalProblem {
     const Eigen::VectorXcd& harmonic() const { return harmonic_; }
     const Chart& chart() const { return chart_; }
     CoefficientStep& coefficient_step() { return *coefficient_step_; }
-    /// Whether φ may be singular within reach of the mesh: at corners, pinned points or curves.
-    bool singular() const {
-        return !(singularities_.corners.empty() && singularities_.pins.empty() && singularities_.curves.empty() &&
-                 singularities_.held.empty());
-    }
+    /// Whether φ may be singular within reach of the mesh: at corners or pinned points. (Where vertices slide poles and
+    /// jumps are mild, and a map that has settled need not be evened out.)
+    bool singular() const { return !singularities_.corners.empty() || !singularities_.pins.empty(); }
     /// Rotation of the chart that turns with the source when the boundary values are carried along.
     double phase() const { return phase_; }
 
