@@ -103,14 +103,15 @@ std::optional<Case> pinned(const std::filesystem::path& folder, const std::strin
 }
 
 struct Outcome {
-    Eigen::VectorXcd map;
+    Distortion distortion;
     std::optional<double> k;
     std::string termination;
 };
 
-Outcome baseline(const BaselineMap& result) {
-    return {
-        result.map, {}, fmt::format("{}, {}", result.converged ? "converged" : "iteration_limit", result.iterations)};
+Outcome baseline(const Case& c, const BaselineMap& result) {
+    return {distortion(c.source.operators, result.map),
+            {},
+            fmt::format("{}, {}", result.converged ? "converged" : "iteration_limit", result.iterations)};
 }
 
 struct Method {
@@ -120,20 +121,20 @@ struct Method {
 
 const std::vector<Method>& methods() {
     static const std::vector<Method> all{
-        {"harmonic", [](const Case& c) { return baseline(harmonic_baseline(c.source, c.boundary)); }},
-        {"arap", [](const Case& c) { return baseline(arap_baseline(c.source, c.boundary)); }},
-        {"mips", [](const Case& c) { return baseline(mips_baseline(c.source, c.boundary)); }},
-        {"alternation", [](const Case& c) { return baseline(alternation_baseline(c.source, c.boundary)); }},
-        {"qc", [](const Case& c) { return baseline(qc_iteration_baseline(c.source, c.boundary)); }},
+        {"harmonic", [](const Case& c) { return baseline(c, harmonic_baseline(c.source, c.boundary)); }},
+        {"arap", [](const Case& c) { return baseline(c, arap_baseline(c.source, c.boundary)); }},
+        {"mips", [](const Case& c) { return baseline(c, mips_baseline(c.source, c.boundary)); }},
+        {"alternation", [](const Case& c) { return baseline(c, alternation_baseline(c.source, c.boundary)); }},
+        {"qc", [](const Case& c) { return baseline(c, qc_iteration_baseline(c.source, c.boundary)); }},
         {"qc, arg μ not smoothed",
          [](const Case& c) {
              BaselineOptions options;
              options.smoothing = 0;
-             return baseline(qc_iteration_baseline(c.source, c.boundary, options));
+             return baseline(c, qc_iteration_baseline(c.source, c.boundary, options));
          }},
         {"extremal", [](const Case& c) {
              const ExtremalMap result = extremal_map(c.source, c.boundary);
-             return Outcome{result.map, result.k,
+             return Outcome{result.distortion, result.k,
                             fmt::format("{}, {}", to_string(result.termination), result.iterations)};
          }}};
     return all;
@@ -147,7 +148,7 @@ void measure(const Case& c) {
             const double before = now();
             const Outcome outcome = method.run(c);
             const double seconds = now() - before;
-            const Distortion d = distortion(c.source.operators, outcome.map);
+            const Distortion& d = outcome.distortion;
             fmt::print("{} {} | {:.5f} | {:.4f} | {:.4f} | {:.4f} | {} | {:.1f} | {} |\n", start,
                        outcome.k ? fmt::format("{:.5f}", *outcome.k) : "", d.mean, d.standard_deviation, d.p99, d.max,
                        d.flipped.size(), seconds / harmonic, outcome.termination);

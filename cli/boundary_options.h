@@ -20,6 +20,10 @@ class BoundaryOptions {
     BoundaryCondition values(const Surface& source) const;
     /// The loop whose image encloses the others.
     int outer_loop() const { return outer_; }
+    /// Whether anything but the outer loop is given.
+    bool given() const {
+        return !spec_.empty() || !hole_specs_.empty() || !pin_file_.empty() || !corners_.empty() || start_;
+    }
 
   private:
     enum class Target { none, disk, rectangle, polygon };

@@ -67,8 +67,21 @@ void HomotopyOptions::apply(const Surface& source, ExtremalOptions& options) con
         }
     }
     if (waypoint_file_.empty()) return;
-    for (const Waypoint& waypoint : waypoints_) require_hole(source, waypoint.loop, options.outer_loop, "--waypoints");
-    if (source.topology.boundary_loops.size() < 2) require_hole(source, 1, options.outer_loop, "--waypoints");
+    require_holes_of_waypoints(source, options.outer_loop);
+    options.waypoints = waypoints_;
+}
+
+void HomotopyOptions::require_holes_of_waypoints(const Surface& source, int outer_loop) const {
+    for (const Waypoint& waypoint : waypoints_) require_hole(source, waypoint.loop, outer_loop, "--waypoints");
+    if (source.topology.boundary_loops.size() < 2) require_hole(source, 1, outer_loop, "--waypoints");
+}
+
+void HomotopyOptions::apply(const Surface& source, OntoOptions& options) const {
+    if (!turns_of_loops_.empty())
+        throw Error(Cause::bad_option, "--turns says nothing where the boundary slides",
+                    "turned loops slide back; give --waypoints to braid holes");
+    if (waypoint_file_.empty()) return;
+    require_holes_of_waypoints(source, options.outer_loop);
     options.waypoints = waypoints_;
 }
 

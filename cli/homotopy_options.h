@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include <beltrami/teichmuller/extremal_map.h>
+#include <beltrami/teichmuller/extremal_onto.h>
 
 #include "files.h"
 
@@ -19,8 +20,12 @@ class HomotopyOptions {
     void load();
     /// Hands the class to the solver. @pre load() @throw Error bad_option naming a loop that cannot turn
     void apply(const Surface& source, ExtremalOptions& options) const;
+    /// For boundaries that slide, where turns mean nothing.
+    void apply(const Surface& source, OntoOptions& options) const;
 
   private:
+    /// @throw Error bad_option naming a waypoint of no hole
+    void require_holes_of_waypoints(const Surface& source, int outer_loop) const;
     void require_hole(const Surface& source, int loop, int outer_loop, const std::string& option) const;
 
     std::vector<std::string> turns_;

@@ -80,6 +80,8 @@ int main(int argc, char** argv) {
                            "  beltrami map face.obj -o arap.obj --method arap --boundary disk\n"
                            "  beltrami measure out.obj                 # distortion of its texture coordinates\n"
                            "  beltrami measure rest.obj deformed.obj   # distortion of a deformation\n"
+                           "  beltrami map face.obj --onto domain.json -o out.obj   # the boundary slides\n"
+                           "  beltrami distance a.obj b.obj\n"
                            "  beltrami flatten face.obj -o flat.obj\n\n") +
                cli::kExitCodes);
     std::vector<std::pair<CLI::App*, std::unique_ptr<cli::Command>>> commands;
@@ -91,6 +93,7 @@ int main(int argc, char** argv) {
     add(cli::make_measure);
     add(cli::make_map);
     add(cli::make_flatten);
+    add(cli::make_distance);
 
     try {
         app.parse(argc, argv);

@@ -8,6 +8,7 @@
 #include "homotopy_options.h"
 #include "map_methods.h"
 #include "metric_option.h"
+#include "onto_options.h"
 #include "output.h"
 #include "page.h"
 
@@ -42,6 +43,7 @@ class Map final : public Command {
             ->check(CLI::PositiveNumber)
             ->type_name("P");
         boundary_.add_to(*app);
+        onto_.add_to(*app);
         homotopy_.add_to(*app);
         metric_.add_to(*app);
         app->add_option(
@@ -66,6 +68,7 @@ class Map final : public Command {
         const Surface source = metric_.surface_of(std::move(mesh));
         add_findings(source.findings, record.warnings);
         record.source = source_record(source);
+        if (onto_.given()) return run_onto_target(source, start, record);
         const BoundaryCondition boundary = boundary_.values(source);
 
         MethodResult result = solve(source, boundary, start, record);
@@ -84,6 +87,39 @@ class Map final : public Command {
     }
 
   private:
+    int run_onto_target(const Surface& source, double start, Record& record) {
+        onto_.load(source, record.warnings);
+        OntoOptions options;
+        options.outer_loop = boundary_.outer_loop();
+        onto_.apply(options);
+        homotopy_.apply(source, options);
+        MethodResult result = run_onto(source, onto_, std::move(options), start, !common_.quiet, record);
+        const Surface& mapped = result.split ? *result.split : source;
+        if (result.positions) {
+            output_.write(mapped.mesh, *result.positions, result.map, result.distortion);
+        } else {
+            output_.write(mapped.mesh, result.map, result.distortion);
+        }
+        onto_.write_places(result.places);
+        const std::string name = result.pages[0].name;
+        write_page(common_.report, mapped.mesh, std::move(result.pages), result.history, record, source_);
+        finish(record, common_, name, {output_.path(), onto_.places_file(), common_.json, common_.report});
+        return 0;
+    }
+
+    void check_onto() const {
+        const auto refuse = [](bool given, const std::string& what) {
+            if (given)
+                throw Error(Cause::bad_option, what + " prescribes boundary values, with --onto the boundary slides",
+                            "leave one of them out");
+        };
+        refuse(boundary_.given(), "--boundary, --hole or --pin");
+        refuse(certify_.has_value(), "--certify");
+        refuse(minimize_ != "K", "--minimize");
+        refuse(!compare_.empty(), "--compare");
+        refuse(method_ != "extremal", "--method " + method_);
+    }
+
     void check() const {
         output_.check();
         std::vector<NamedFile> inputs = boundary_.inputs();
@@ -91,9 +127,18 @@ class Map final : public Command {
             inputs.insert(inputs.end(), more.begin(), more.end());
         };
         add(homotopy_.inputs());
+        add(onto_.inputs());
         add(metric_.inputs());
         inputs.push_back({"SOURCE", source_});
-        common_.check_files(inputs, {{"-o", output_.path()}});
+        std::vector<NamedFile> outputs = onto_.outputs();
+        outputs.insert(outputs.begin(), {"-o", output_.path()});
+        common_.check_files(inputs, std::move(outputs));
+        if (onto_.given()) {
+            check_onto();
+            return;
+        }
+        if (const std::string stray = onto_.stray(); !stray.empty())
+            throw Error(Cause::bad_option, stray + " belongs to --onto");
         if (certify_ && minimize_ == "max")
             throw Error(Cause::bad_option, "--certify is about the extremal map, not about --minimize max",
                         "leave one of them out");
@@ -146,6 +191,7 @@ class Map final : public Command {
     std::vector<std::string> compare_;
     OutputOptions output_;
     BoundaryOptions boundary_;
+    OntoTarget onto_;
     HomotopyOptions homotopy_;
     MetricOption metric_;
     CommonOptions common_;

@@ -114,6 +114,36 @@ MethodResult run_least_maximum(const Surface& source, const BoundaryCondition& b
     return done;
 }
 
+MethodResult run_onto(const Surface& source, const OntoTarget& target, OntoOptions options, double start, bool show,
+                      Record& record) {
+    MethodResult done;
+    ExtremalMapOnto result = [&] {
+        Progress progress(show);
+        options.progress = [&](int iteration, double k) {
+            progress.show(iteration, k);
+            return true;
+        };
+        if (target.domain()) return extremal_map(source, *target.domain(), options);
+        ExtremalMapOntoSurface onto = extremal_map(source, *target.surface(), options);
+        done.positions = std::move(onto.positions);
+        done.places = std::move(onto.places);
+        return std::move(onto.plane);
+    }();
+    record.solve = solve_record(result, seconds() - start);
+    record.map = map_record(result);
+    record.onto = onto_record(result, target.path());
+    if (result.split) record.split = split_record(*result.split, source.mesh.vertex_count());
+    append(record.warnings, result.warnings);
+    done.split = split_surface(result.split);
+    const Surface& used = done.split ? *done.split : source;
+    done.pages.push_back({"extremal", positions_of(result.map), result.distortion.face_abs_mu});
+    done.pages.push_back({"start", positions_of(result.start), distortion(used.operators, result.start).face_abs_mu});
+    done.history = std::move(result.history);
+    done.map = std::move(result.map);
+    done.distortion = std::move(result.distortion);
+    return done;
+}
+
 MethodResult run_baseline(const Surface& source, const BoundaryCondition& boundary, const std::string& method,
                           double start, MethodRecord& record, std::vector<std::string>& warnings) {
     BaselineMap result = baselines().at(method)(source, boundary, {});

@@ -3,6 +3,8 @@
 #include <beltrami/report/page.h>
 #include <beltrami/report/record.h>
 
+#include "onto_options.h"
+
 namespace beltrami::cli {
 
 /// Names of the methods besides "extremal".
@@ -10,10 +12,12 @@ const std::vector<std::string>& baseline_names();
 
 /// A map with what the outputs show of it. The mesh is the source's, or the split one.
 struct MethodResult {
-    std::optional<Surface> split;  ///< the mesh that was mapped, if it is not the source itself
-    Eigen::VectorXcd map;          ///< #V
-    Distortion distortion;         ///< of map
-    std::vector<PageMap> pages;    ///< the map first
+    std::optional<Surface> split;        ///< the mesh that was mapped, if it is not the source itself
+    Eigen::VectorXcd map;                ///< #V
+    Distortion distortion;               ///< of map
+    std::vector<PageMap> pages;          ///< the map first
+    std::optional<Positions> positions;  ///< #V images on a target that is a surface
+    std::vector<MeshPoint> places;       ///< #V the same on its faces
     std::vector<Iteration> history;
 };
 
@@ -27,6 +31,10 @@ MethodResult run_extremal(const Surface& source, const BoundaryCondition& bounda
 /// The map of least largest |μ|; fills least_maximum too.
 MethodResult run_least_maximum(const Surface& source, const BoundaryCondition& boundary, ExtremalOptions options,
                                double start, bool show, Record& record);
+
+/// The extremal map onto a target; fills onto too.
+MethodResult run_onto(const Surface& source, const OntoTarget& target, OntoOptions options, double start, bool show,
+                      Record& record);
 
 /// Another method.
 MethodResult run_baseline(const Surface& source, const BoundaryCondition& boundary, const std::string& method,

@@ -24,21 +24,37 @@ void OutputOptions::check() const {
                     "name the output with one of these extensions");
 }
 
-void OutputOptions::write(const Mesh& source, const Eigen::VectorXcd& map, const Distortion& distortion) const {
+namespace {
+
+std::vector<Column> columns_of(const Distortion& distortion) {
     const Eigen::VectorXd K = distortion.face_abs_mu.unaryExpr([](double abs_mu) { return dilatation(abs_mu); });
-    const std::vector<Column> columns{{"mu_re", distortion.face_mu.real()},
-                                      {"mu_im", distortion.face_mu.imag()},
-                                      {"abs_mu", distortion.face_abs_mu},
-                                      {"K", K}};
+    return {{"mu_re", distortion.face_mu.real()},
+            {"mu_im", distortion.face_mu.imag()},
+            {"abs_mu", distortion.face_abs_mu},
+            {"K", K}};
+}
+
+Mesh mesh_at(const Positions& positions, const FaceList& faces) {
+    Mesh image;
+    image.positions = Positions::Zero(positions.rows(), 3);
+    image.positions.leftCols(positions.cols()) = positions;
+    image.faces = faces;
+    return image;
+}
+
+}  // namespace
+
+void OutputOptions::write(const Mesh& source, const Eigen::VectorXcd& map, const Distortion& distortion) const {
     if (!as_positions_) {
-        write_mesh(path_, {source, positions_of(map), columns});
+        write_mesh(path_, {source, positions_of(map), columns_of(distortion)});
         return;
     }
-    Mesh image;
-    image.positions = Positions::Zero(map.size(), 3);
-    image.positions.leftCols(2) = positions_of(map);
-    image.faces = source.faces;
-    write_mesh(path_, {image, {}, columns});
+    write_mesh(path_, {mesh_at(positions_of(map), source.faces), {}, columns_of(distortion)});
+}
+
+void OutputOptions::write(const Mesh& source, const Positions& images, const Eigen::VectorXcd& map,
+                          const Distortion& distortion) const {
+    write_mesh(path_, {mesh_at(images, source.faces), positions_of(map), columns_of(distortion)});
 }
 
 }  // namespace beltrami::cli

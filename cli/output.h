@@ -15,6 +15,9 @@ class OutputOptions {
     void check() const;
     /// Vertices and faces of the source in their order, with the map as vt (or as positions) and, in PLY, μ per face.
     void write(const Mesh& source, const Eigen::VectorXcd& map, const Distortion& distortion) const;
+    /// The same for a map onto a surface: vertices stand at their images there, with the plane map as vt.
+    void write(const Mesh& source, const Positions& images, const Eigen::VectorXcd& map,
+               const Distortion& distortion) const;
 
   private:
     std::string path_;

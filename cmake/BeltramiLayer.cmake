@@ -1,15 +1,18 @@
 # One folder of src/beltrami is one layer. Each layer is an object library whose include path holds its own headers and
 # those of the layers it may use, nothing else: an #include of a layer further down does not compile.
 #
-#   beltrami_layer(<name> [USES <layer>...] [LIBRARIES <target>...])
+#   beltrami_layer(<name> [USES <layer>...] [LIBRARIES <target>...] [WITHOUT <file>...])
 #
-# USES names the layers directly above; theirs come along. LIBRARIES are private third-party targets.
+# USES names the layers directly above; theirs come along. LIBRARIES are private third-party targets. WITHOUT names
+# files of the folder that beltrami_choice() compiles, of which a library takes one.
 set(BELTRAMI_LAYERS "" CACHE INTERNAL "")
 
 function(beltrami_layer name)
-    cmake_parse_arguments(ARG "" "" "USES;LIBRARIES" ${ARGN})
+    cmake_parse_arguments(ARG "" "" "USES;LIBRARIES;WITHOUT" ${ARGN})
     set(folder ${CMAKE_CURRENT_SOURCE_DIR}/src/beltrami/${name})
     file(GLOB sources CONFIGURE_DEPENDS ${folder}/*.cpp ${folder}/*.h)
+    list(TRANSFORM ARG_WITHOUT PREPEND ${folder}/)
+    list(REMOVE_ITEM sources ${ARG_WITHOUT})
     set(stage ${CMAKE_CURRENT_BINARY_DIR}/layers/${name})
     file(MAKE_DIRECTORY ${stage}/beltrami)
     file(CREATE_LINK ${folder} ${stage}/beltrami/${name} SYMBOLIC)
@@ -25,5 +28,17 @@ function(beltrami_layer name)
             $<BUILD_INTERFACE:$<TARGET_PROPERTY:beltrami_${layer},INTERFACE_INCLUDE_DIRECTORIES>>)
     endforeach()
     set_target_properties(beltrami_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    beltrami_precompile(layers beltrami_${name})
     set(BELTRAMI_LAYERS ${BELTRAMI_LAYERS} ${name} CACHE INTERNAL "")
+endfunction()
+
+# One file of a layer that a library takes or leaves, as the object library beltrami_<file>:
+#
+#   beltrami_choice(<layer> <file> [LIBRARIES <target>...])
+function(beltrami_choice layer file)
+    cmake_parse_arguments(ARG "" "" "LIBRARIES" ${ARGN})
+    add_library(beltrami_${file} OBJECT EXCLUDE_FROM_ALL src/beltrami/${layer}/${file}.cpp)
+    target_link_libraries(beltrami_${file} PRIVATE beltrami_${layer} beltrami_warnings ${ARG_LIBRARIES})
+    set_target_properties(beltrami_${file} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    beltrami_precompile(layers beltrami_${file})
 endfunction()

@@ -2,12 +2,17 @@
 
 /// The one header that most users include.
 
+#include <beltrami/applications/grid_on_surface.h>
 #include <beltrami/baselines/baseline.h>
 #include <beltrami/conformal/boundary_values.h>
+#include <beltrami/conformal/chart_places.h>
+#include <beltrami/conformal/circle_domain_chart.h>
+#include <beltrami/conformal/circle_matching.h>
 #include <beltrami/conformal/domain_chart.h>
 #include <beltrami/conformal/fill_holes.h>
 #include <beltrami/conformal/flatten.h>
 #include <beltrami/conformal/round_disk.h>
+#include <beltrami/conformal/target_mesh.h>
 #include <beltrami/generate/double_torus.h>
 #include <beltrami/generate/grids.h>
 #include <beltrami/generate/planar_domains.h>
@@ -25,7 +30,10 @@
 #include <beltrami/maps/even_dilatation.h>
 #include <beltrami/maps/fold_free.h>
 #include <beltrami/maps/homotopy.h>
+#include <beltrami/maps/marks.h>
 #include <beltrami/maps/prescribed_split.h>
+#include <beltrami/maps/target_curve.h>
+#include <beltrami/maps/target_domain.h>
 #include <beltrami/maps/twist.h>
 #include <beltrami/mesh/cut.h>
 #include <beltrami/mesh/diagnosis.h>
@@ -37,8 +45,11 @@
 #include <beltrami/mesh/topology.h>
 #include <beltrami/operators/distortion.h>
 #include <beltrami/operators/surface.h>
+#include <beltrami/report/target_file.h>
 #include <beltrami/teichmuller/certificate.h>
 #include <beltrami/teichmuller/certify.h>
+#include <beltrami/teichmuller/distance.h>
 #include <beltrami/teichmuller/extremal_map.h>
+#include <beltrami/teichmuller/extremal_onto.h>
 #include <beltrami/teichmuller/extremal_solver.h>
 #include <beltrami/teichmuller/least_maximum.h>

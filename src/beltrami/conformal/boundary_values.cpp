@@ -66,7 +66,10 @@ void make_increasing(std::vector<double>& values, double period, const std::vect
     // Three times around: what the second turn gets does not depend on where the loop starts.
     const std::size_t n = values.size();
     const double total = arc.back();
-    const auto turn = [&](std::size_t i) { return static_cast<double>(i / n) - 1; };
+    const auto turn = [&](std::size_t i) {
+        const std::size_t round = i / n;
+        return static_cast<double>(round) - 1;
+    };
     const auto value = [&](std::size_t i) { return values[i % n] + turn(i) * period; };
     const auto place = [&](std::size_t i) { return arc[i % n] + turn(i) * total; };
     std::vector<Pool> pools;

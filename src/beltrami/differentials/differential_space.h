@@ -30,6 +30,9 @@ class DifferentialSpace {
     virtual bool complex_coefficients() const = 0;
     /// Values of every generator, pulled back to the points: #points × #generators.
     virtual Eigen::MatrixXcd generators(const ChartPoints& points) const = 0;
+    /// Values of every generator at the source's own samples, in the samples' frames: #S × #generators. Not null where
+    /// a space is known there only; generators() and combination() then throw, and no chart is needed.
+    virtual const Eigen::MatrixXcd* tabulated() const { return nullptr; }
     /// T: #generators × size(); null where the generators are the basis.
     virtual const Eigen::MatrixXcd* transform() const { return nullptr; }
     /// Values of one combination. @param coefficients size() of them

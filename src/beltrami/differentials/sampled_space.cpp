@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <stdexcept>
 
 #include <beltrami/mesh/parallel.h>
 
@@ -69,9 +70,13 @@ SampledSpace::SampledSpace(const Chart& chart, const Singularities& singularitie
 
 void SampledSpace::set(const DifferentialSpace& space) {
     space_ = &space;
-    if (mode_ == Mode::afresh) return;
-    if (mode_ == Mode::dense) {
-        Eigen::MatrixXcd values = space.generators({chart_.positions, chart_.derivatives});
+    current_ = space.tabulated() ? Mode::dense : mode_;
+    if (current_ == Mode::afresh) return;
+    if (current_ == Mode::dense) {
+        Eigen::MatrixXcd values =
+            space.tabulated() ? *space.tabulated() : space.generators({chart_.positions, chart_.derivatives});
+        if (values.rows() != static_cast<Eigen::Index>(chart_.excluded.size()))
+            throw std::logic_error("SampledSpace: a tabulated space of other samples");
         if (!means_.samples.empty()) {
             const Eigen::MatrixXcd at_points = space.generators(means_.points);
             take_means(means_, at_points, values);
@@ -97,8 +102,8 @@ ChartPoints SampledSpace::chunk(int first, int last) const {
 
 Eigen::VectorXcd SampledSpace::combination(const Eigen::VectorXcd& coefficients) const {
     const Eigen::VectorXcd of_generators = space_->of_generators(coefficients);
-    if (mode_ == Mode::interpolated) return interpolate(values_.times(of_generators));
-    if (mode_ == Mode::dense) return values_.times(of_generators);
+    if (current_ == Mode::interpolated) return interpolate(values_.times(of_generators));
+    if (current_ == Mode::dense) return values_.times(of_generators);
     const int samples = static_cast<int>(chart_.positions.size());
     Eigen::VectorXcd phi(samples);
     parallel_for(0, samples, [&](int first, int last) {
@@ -134,8 +139,8 @@ Eigen::VectorXcd SampledSpace::interpolate(const Eigen::VectorXcd& at_nodes) con
 }
 
 Eigen::MatrixXcd SampledSpace::pair(const Eigen::MatrixXcd& weights) const {
-    if (mode_ == Mode::interpolated) return space_->from_generators(values_.transposed_times(gather(weights)));
-    if (mode_ == Mode::dense) return space_->from_generators(values_.transposed_times(weights));
+    if (current_ == Mode::interpolated) return space_->from_generators(values_.transposed_times(gather(weights)));
+    if (current_ == Mode::dense) return space_->from_generators(values_.transposed_times(weights));
     const int samples = static_cast<int>(chart_.positions.size());
     const int generators =
         static_cast<int>(space_->transform() ? space_->transform()->rows() : Eigen::Index{space_->size()});

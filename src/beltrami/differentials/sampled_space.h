@@ -25,6 +25,7 @@ void take_means(const SamplePoints& means, const Eigen::MatrixXcd& at_points, Ei
 /// nodes per cell of a grid over the canonical domain only: inside a cell a holomorphic function is its cubic
 /// interpolant through four points of a circle. That costs a few operations a sample instead of a few per function and
 /// sample. Where singularities would ask for nearly as many cells as samples, functions are evaluated afresh each time.
+/// A tabulated space is its values at all samples, whatever their number.
 class SampledSpace {
   public:
     /// @param chart kept by reference
@@ -58,7 +59,8 @@ class SampledSpace {
     const Chart& chart_;
     SamplePoints means_;
     const DifferentialSpace* space_ = nullptr;
-    Mode mode_ = Mode::dense;
+    Mode mode_ = Mode::dense;     ///< of spaces that can be evaluated anywhere
+    Mode current_ = Mode::dense;  ///< of the current space
     ChartGrid grid_{{}, {0}, {}, {}};
     Eigen::VectorXcd centres_;  ///< #cells
     SplitMatrix at_means_;      ///< of the generators: #points of the means × g

@@ -1,5 +1,3 @@
-#if BELTRAMI_SUITESPARSE
-
 #include <cholmod.h>
 #include <dlfcn.h>
 #include <complex>
@@ -234,5 +232,3 @@ std::unique_ptr<CholeskyBackend> make_backend(const CholeskyBackend::Matrix& low
 
 }  // namespace detail
 }  // namespace beltrami
-
-#endif

@@ -1,5 +1,3 @@
-#if !BELTRAMI_SUITESPARSE
-
 #include <Eigen/SparseCholesky>
 
 #include <beltrami/linear/backend.h>
@@ -59,5 +57,3 @@ std::unique_ptr<CholeskyBackend> make_backend(const CholeskyBackend::Matrix& low
 
 }  // namespace detail
 }  // namespace beltrami
-
-#endif

@@ -83,9 +83,13 @@ struct BeltramiSolver::Implementation {
         return count;
     }
 
-    double weight(int sample) const { return 2 * operators.weights[sample] / (1 - std::norm(nu[sample])); }
+    double weight(int sample, const Eigen::VectorXcd& of) const {
+        return 2 * operators.weights[sample] / (1 - std::norm(of[sample]));
+    }
+    double weight(int sample) const { return weight(sample, nu); }
 
-    void assemble() {
+    /// @param extra_diagonal see factorize; may be empty
+    void assemble(const Eigen::VectorXd& extra_diagonal) {
         auto& matrix = solver->matrix();
         matrix.coeffs().setZero();
         double* values = matrix.valuePtr();
@@ -98,6 +102,12 @@ struct BeltramiSolver::Implementation {
                 for (int j = 0; j <= i; ++j, ++slot)
                     if (*slot >= 0) values[*slot] += w * (d[i].real() * d[j].real() + d[i].imag() * d[j].imag());
         }
+        if (extra_diagonal.size() == 0) return;
+        for (int v = 0; v < operators.vertex_count; ++v)
+            if (freedom[v] == Freedom::sliding) {
+                double& diagonal = values[matrix.outerIndexPtr()[first_unknown[v]]];  // first of its column
+                diagonal += std::max(extra_diagonal[v], -0.3 * diagonal);
+            }
     }
 
     /// The part of a map that is not solved for: fixed and sliding vertices, 0 at free ones.
@@ -141,6 +151,25 @@ struct BeltramiSolver::Implementation {
             }
         }
         return rhs;
+    }
+
+    /// The unknowns of a map.
+    Eigen::MatrixXd pack(const Eigen::VectorXcd& map, const Eigen::VectorXcd& base) const {
+        Eigen::MatrixXd y(assembly->unknown_count(), decoupled ? 2 : 1);
+        for (int v = 0; v < operators.vertex_count; ++v) {
+            const int u = first_unknown[v];
+            if (u < 0) continue;
+            if (decoupled) {
+                y(u, 0) = map[v].real();
+                y(u, 1) = map[v].imag();
+            } else if (freedom[v] == Freedom::sliding) {
+                y(u, 0) = std::real(std::conj(directions[v]) * (map[v] - base[v])) / std::norm(directions[v]);
+            } else {
+                y(u, 0) = map[v].real();
+                y(u + 1, 0) = map[v].imag();
+            }
+        }
+        return y;
     }
 
     Eigen::VectorXcd unpack(const Eigen::MatrixXd& y, const Eigen::VectorXcd& base) const {
@@ -197,16 +226,7 @@ void BeltramiSolver::factorize(const Eigen::VectorXcd& nu, const Eigen::VectorXc
     Implementation& m = *implementation_;
     m.nu = nu;
     m.directions = directions;
-    m.assemble();
-    if (extra_diagonal.size()) {
-        auto& matrix = m.solver->matrix();
-        for (int v = 0; v < m.operators.vertex_count; ++v)
-            if (m.freedom[v] == Freedom::sliding) {
-                const int u = m.first_unknown[v];
-                double& diagonal = matrix.valuePtr()[matrix.outerIndexPtr()[u]];  // first of its column
-                diagonal += std::max(extra_diagonal[v], -0.3 * diagonal);
-            }
-    }
+    m.assemble(extra_diagonal);
     m.factorize();
 }
 
@@ -236,42 +256,50 @@ Eigen::VectorXd BeltramiSolver::solve_poisson(const Eigen::VectorXd& load) const
 
 Eigen::VectorXcd BeltramiSolver::solve_near(const Eigen::VectorXcd& nu, const Eigen::VectorXcd& start,
                                             const Eigen::VectorXcd& guess, double tolerance) {
+    return solve_near(nu, implementation_->directions, {}, start, guess, tolerance);
+}
+
+Eigen::VectorXcd BeltramiSolver::solve_near(const Eigen::VectorXcd& nu, const Eigen::VectorXcd& directions,
+                                            const Eigen::VectorXd& extra_diagonal, const Eigen::VectorXcd& start,
+                                            const Eigen::VectorXcd& guess, double tolerance) {
     Implementation& m = *implementation_;
-    if (!m.decoupled || m.solver->factorization_count() == 0) {
-        factorize(nu, m.directions);
+    if (m.solver->factorization_count() == 0) {
+        factorize(nu, directions, extra_diagonal);
         return solve(start);
     }
     m.nu = nu;
-    m.assemble();
+    m.directions = directions;
+    m.assemble(extra_diagonal);
     const Eigen::VectorXcd base = m.base_of(start);
     const Eigen::MatrixXd rhs = m.right_hand_side(base);
-    Eigen::MatrixXd y(rhs.rows(), 2);
-    for (Eigen::Index u = 0; u < y.rows(); ++u) {
-        y(u, 0) = guess[m.owner[u]].real();
-        y(u, 1) = guess[m.owner[u]].imag();
-    }
+    Eigen::MatrixXd y = m.pack(guess, base);
     if (m.solver->solve_near(rhs, y, std::max(tolerance, kNearTolerance), kMostNearSteps)) return m.unpack(y, base);
     m.factorize();
     return m.unpack(m.solver->solve(rhs), base);
 }
 
-Eigen::VectorXcd BeltramiSolver::gradient(const Eigen::VectorXcd& f) const {
+Eigen::VectorXcd BeltramiSolver::gradient(const Eigen::VectorXcd& f, const Eigen::VectorXcd& nu) const {
     const Implementation& m = *implementation_;
     Eigen::VectorXcd force = Eigen::VectorXcd::Zero(m.operators.vertex_count);
     for (int s = 0; s < m.operators.sample_count(); ++s) {
         const auto [dz, dzbar] = m.operators.derivatives(s, f);
-        const Complex residual = dzbar - m.nu[s] * dz;
+        const Complex residual = dzbar - nu[s] * dz;
+        const double weight = m.weight(s, nu);
         const auto stencil = m.operators.stencil(s);
         const auto gradients = m.operators.gradient(s);
         // d/d(Re f_j) and d/d(Im f_j) of ½ w |residual|², as one complex number.
         for (std::size_t j = 0; j < stencil.size(); ++j) {
             const Complex g = gradients[j];
-            const double x = std::real(std::conj(0.5 * (g - m.nu[s] * std::conj(g))) * residual);
-            const double y = std::real(std::conj(0.5 * kI * (g - m.nu[s] * std::conj(g))) * residual);
-            force[stencil[j]] += m.weight(s) * Complex(x, y);
+            const double x = std::real(std::conj(0.5 * (g - nu[s] * std::conj(g))) * residual);
+            const double y = std::real(std::conj(0.5 * kI * (g - nu[s] * std::conj(g))) * residual);
+            force[stencil[j]] += weight * Complex(x, y);
         }
     }
     return force;
+}
+
+Eigen::VectorXcd BeltramiSolver::gradient(const Eigen::VectorXcd& f) const {
+    return gradient(f, implementation_->nu);
 }
 
 Eigen::VectorXcd harmonic_map(const Surface& source, const BoundaryCondition& boundary, int expected_factorizations) {

@@ -50,8 +50,14 @@ class BeltramiSolver {
     /// @param tolerance of the error, relative to the map, in the energy norm; at least 1e-11
     Eigen::VectorXcd solve_near(const Eigen::VectorXcd& nu, const Eigen::VectorXcd& start,
                                 const Eigen::VectorXcd& guess, double tolerance = 1e-11);
+    /// The same with sliding vertices, whose directions and curvature may have changed too (see factorize).
+    Eigen::VectorXcd solve_near(const Eigen::VectorXcd& nu, const Eigen::VectorXcd& directions,
+                                const Eigen::VectorXd& extra_diagonal, const Eigen::VectorXcd& start,
+                                const Eigen::VectorXcd& guess, double tolerance = 1e-11);
 
-    /// D^H W D f with D = ∂̄ − ν∂ of the last factorize: the force on each vertex (#V), for curvature terms.
+    /// D^H W D f with D = ∂̄ − ν∂: the force on each vertex (#V), for curvature terms.
+    Eigen::VectorXcd gradient(const Eigen::VectorXcd& f, const Eigen::VectorXcd& nu) const;
+    /// With the ν of the last factorize.
     Eigen::VectorXcd gradient(const Eigen::VectorXcd& f) const;
 
     bool decoupled() const;

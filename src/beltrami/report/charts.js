@@ -43,15 +43,16 @@ function drawHistogram() {
 
 function drawBounds() {
     const { K, K_lower, K_max } = mainMap;
-    const rows = bounds.map(bound => {
+    const rows = bounds.filter(bound => bound.kind !== "attained").map(bound => {  // which the worst face is
         const open = bound.rigorous === false;
         const of = bound.of === "mesh" ? "of this mesh, " : bound.of ? `of ${bound.of}, ` : "";
         return { at: bound.K, open, name: words(bound.kind ?? "bound"), detail: of + (open ? "estimate" : "rigorous") };
     });
     if (isNumber(K_lower) && !lowerBound) rows.push({ at: K_lower, name: "lower bound", detail: "" });
     rows.sort((a, b) => a.at - b.at);
-    if (isNumber(K)) rows.push({ at: K, name: "K of this map", detail: "", strong: true });
-    if (isNumber(K_max)) rows.push({ at: K_max, name: "worst face", detail: "" });
+    if (isNumber(K)) rows.push({ at: K, name: "K of this map", detail: "estimate", open: true, strong: true });
+    const attained = bounds.some(bound => bound.kind === "attained");
+    if (isNumber(K_max)) rows.push({ at: K_max, name: "worst face", detail: attained ? "of K*, rigorous" : "" });
     $("bounds-section").hidden = !rows.length;
     if (!rows.length) return;
     const step = 38, top = 6, foot = 40, { svg, width } = chart("bounds", rows.length * step + top + foot);

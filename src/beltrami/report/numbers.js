@@ -107,14 +107,14 @@ function writeNumbers() {
     const { k, K, K_lower, K_max, mu = {}, flipped, degenerate, boundary_residual } = mainMap, { seconds = {} } = solve;
     if (isNumber(K)) add("Dilatation K", fixed(K), isNumber(k) ? `k = ${fixed(k)}` : "");
     const gap = isNumber(K) && K > K_lower ? K / K_lower - 1 : 0;
-    if (isNumber(K_lower)) add("Lower bound on K", fixed(K_lower), isNumber(K) ? `gap ${percent(gap)}` : "");
+    if (isNumber(K_lower)) add("Lower bound", fixed(K_lower), isNumber(K) ? `gap ${percent(gap)}` : "");
     if (K_max !== undefined) add("K of worst face", fixed(K_max), isNumber(mu.max) ? `|μ| = ${fixed(mu.max)}` : "");
     if (isNumber(mu.mean)) add("Mean |μ|", fixed(mu.mean), isNumber(mu.std) ? `± ${show(mu.std, 2)}` : "");
     if (flipped !== undefined) add("Flipped faces", show(flipped), `${show(degenerate ?? 0)} degenerate`, flipped > 0);
-    if (isNumber(boundary_residual)) add("Boundary residual", show(boundary_residual, 2));
+    if (isNumber(boundary_residual)) add("Boundary error", show(boundary_residual, 2));
     if (isNumber(solve.iterations)) add("Iterations", show(solve.iterations), words(solve.termination ?? ""));
     const { corners } = record, sharpest = corners?.sharpest;
-    if (corners) add("Corners of the boundary values", show(corners.count),
+    if (corners) add("Corners, kinks", show(corners.count),
                      sharpest ? `at vertex ${sharpest.vertex} K ≥ about ${fixed(sharpest.K)}` : "");
     if (record.split) add("Edges split", show(record.split.edges), count(record.split.added.length, "added vertex", "added vertices"));
     const factorizations = solve.factorizations ? count(solve.factorizations, "factorization") : "";

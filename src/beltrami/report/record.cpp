@@ -77,6 +77,50 @@ Json to_object(const CornersRecord& corners) {
     return object;
 }
 
+Json to_object(const OntoRecord& onto) {
+    Json object = {{"target", onto.target},
+                   {"space", to_string(onto.space)},
+                   {"dimension", onto.dimension},
+                   {"expected_dimension", onto.expected_dimension},
+                   {"gap", number(onto.gap)},
+                   {"K_upper", number(onto.K_upper)},
+                   {"rotation", number(onto.rotation)},
+                   {"led", onto.led},
+                   {"start_flips", onto.start_flips}};
+    Json path = Json::array(), loops = Json::array();
+    for (const Waypoint& waypoint : onto.path)
+        path.push_back({waypoint.step, waypoint.loop, waypoint.position.real(), waypoint.position.imag()});
+    for (const LoopOnto& loop : onto.loops)
+        loops.push_back({{"loop", loop.loop},
+                         {"curve", loop.curve},
+                         {"area_ratio", number(loop.area_ratio)},
+                         {"parameters", loop.parameters}});
+    object["path"] = std::move(path);
+    object["loops"] = std::move(loops);
+    return object;
+}
+
+Json to_rows(const Eigen::MatrixXd& matrix) {
+    Json rows = Json::array();
+    for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+        Json row = Json::array();
+        for (Eigen::Index j = 0; j < matrix.cols(); ++j) row.push_back(number(matrix(i, j)));
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+Json to_object(const DistancesRecord& distances) {
+    Json merges = Json::array();
+    for (const Merge& merge : distances.merges)
+        merges.push_back({{"clusters", {merge.a, merge.b}}, {"height", number(merge.height)}, {"size", merge.size}});
+    return {{"shapes", distances.shapes},
+            {"distance", to_rows(distances.matrix.distance)},
+            {"lower", to_rows(distances.matrix.lower)},
+            {"upper", to_rows(distances.matrix.upper)},
+            {"merges", std::move(merges)}};
+}
+
 /// Which holes are turned, in words.
 std::string sentence_of(const HomotopyClass& homotopy) {
     std::string turned, unclear;
@@ -142,6 +186,16 @@ MapRecord map_record(const ExtremalMap& result) {
     return record;
 }
 
+MapRecord map_record(const ExtremalMapOnto& result) {
+    MapRecord record = map_record(result.distortion);
+    record.k = result.k;
+    record.K = result.K;
+    if (result.distortion.flipped.empty() || result.K_lower > 1) record.K_lower = result.K_lower;
+    record.bounds = result.bounds;
+    record.boundary_residual = result.boundary_residual;
+    return record;
+}
+
 MapRecord map_record(const LeastMaximumMap& result) {
     MapRecord record = map_record(result.distortion);
     if (result.extremal) {
@@ -160,6 +214,25 @@ MapRecord map_record(const LeastMaximumMap& result) {
 SolveRecord solve_record(const ExtremalMap& result, double seconds_total) {
     return {result.iterations,   to_string(result.termination), result.factorizations, seconds_total, {},
             result.folds_removed};
+}
+
+SolveRecord solve_record(const ExtremalMapOnto& result, double seconds_total) {
+    return {result.iterations,   to_string(result.termination), result.factorizations, seconds_total, {},
+            result.folds_removed};
+}
+
+OntoRecord onto_record(const ExtremalMapOnto& result, const std::string& target) {
+    return {target,
+            result.space,
+            result.dimension,
+            result.expected_dimension,
+            result.dimension_gap,
+            result.K_upper,
+            result.loops,
+            result.rotation,
+            result.path,
+            result.led,
+            result.start_flips};
 }
 
 SolveRecord solve_record(const LeastMaximumMap& result, double seconds_total) {
@@ -223,6 +296,8 @@ std::string to_json(const Record& record) {
         json["least_maximum"] = {{"power", record.least_maximum->power},
                                  {"before", number(record.least_maximum->before)},
                                  {"after", number(record.least_maximum->after)}};
+    if (record.onto) json["onto"] = to_object(*record.onto);
+    if (record.distances) json["distances"] = to_object(*record.distances);
     if (!record.comparison.empty()) {
         Json methods = Json::array();
         for (const MethodRecord& other : record.comparison)
@@ -285,6 +360,16 @@ std::string to_remarks(const Record& record) {
                             record.certificate->reached ? "reached" : "not reached", record.certificate->reason,
                             record.certificate->refinements,
                             record.certificate->refinements == 1 ? "refinement" : "refinements");
+    if (record.onto) {
+        const OntoRecord& onto = *record.onto;
+        text += "loops:";
+        for (const LoopOnto& loop : onto.loops) text += fmt::format(" {}:{}", loop.loop, loop.curve);
+        text += fmt::format("; differentials: dimension {} (theory {})", onto.dimension, onto.expected_dimension);
+        if (onto.dimension > 0)
+            text += fmt::format("; bracket of K*: {:.5f} to {:.5f} (estimates)", record.map ? *record.map->K_lower : 1,
+                                onto.K_upper);
+        text += "\n";
+    }
     if (record.least_maximum)
         text += fmt::format("largest |mu| of a face: {:.4f} before, {:.4f} after\n", record.least_maximum->before,
                             record.least_maximum->after);
@@ -298,7 +383,9 @@ std::string to_sentence(const Record& record) {
         return bound.rigorous && bound.of == Bound::Of::extremal && bound.kind != "attained" && bound.K == *map.K_lower;
     });
     // Rounded so that what is said stays true.
-    const char* prescribed = record.homotopy ? "boundary values in this homotopy class" : "boundary values";
+    const char* prescribed = record.onto       ? "loops and marks in this homotopy class"
+                             : record.homotopy ? "boundary values in this homotopy class"
+                                               : "boundary values";
     return fmt::format(
         "no map with these {} stretches less than K = {:.3f} ({})\n"
         "this one: about {:.3f}, at most {:.3f} on 99 % of the area\n",

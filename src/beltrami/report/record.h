@@ -4,7 +4,9 @@
 #include <string>
 #include <vector>
 
+#include <beltrami/teichmuller/distance.h>
 #include <beltrami/teichmuller/extremal_map.h>
+#include <beltrami/teichmuller/extremal_onto.h>
 #include <beltrami/teichmuller/least_maximum.h>
 
 namespace beltrami {
@@ -68,6 +70,27 @@ struct CertificateRecord {
     std::string reason;
 };
 
+/// A map whose boundary slides onto a target.
+struct OntoRecord {
+    std::string target;  ///< its file
+    OntoOptions::Space space = OntoOptions::Space::laurent;
+    int dimension = 0, expected_dimension = 0;
+    double gap = 0;  ///< how clearly the dimension was told
+    double K_upper = 1;
+    std::vector<LoopOnto> loops;
+    double rotation = 0;
+    std::vector<Waypoint> path;
+    bool led = false;
+    int start_flips = 0;
+};
+
+/// Distances of some shapes, and their clusters.
+struct DistancesRecord {
+    std::vector<std::string> shapes;
+    DistanceMatrix matrix;
+    std::vector<Merge> merges;
+};
+
 /// One line of a comparison.
 struct MethodRecord {
     std::string method;
@@ -86,6 +109,8 @@ struct Record {
     std::optional<SplitRecord> split;
     std::optional<CertificateRecord> certificate;
     std::optional<LeastMaximumRecord> least_maximum;
+    std::optional<OntoRecord> onto;
+    std::optional<DistancesRecord> distances;
     std::vector<MethodRecord> comparison;
     std::vector<std::string> warnings;
 };
@@ -95,9 +120,12 @@ SourceRecord source_record(const Mesh& mesh, const Topology& topology);
 SourceRecord source_record(const Surface& surface);
 MapRecord map_record(const Distortion& distortion);
 MapRecord map_record(const ExtremalMap& result);
+MapRecord map_record(const ExtremalMapOnto& result);
 /// Dilatation of the map itself; the lower bounds are those of the extremal map of its class.
 MapRecord map_record(const LeastMaximumMap& result);
 SolveRecord solve_record(const ExtremalMap& result, double seconds_total);
+SolveRecord solve_record(const ExtremalMapOnto& result, double seconds_total);
+OntoRecord onto_record(const ExtremalMapOnto& result, const std::string& target);
 SolveRecord solve_record(const LeastMaximumMap& result, double seconds_total);
 CornersRecord corners_record(const ExtremalMap& result);
 /// @param source_vertices number of vertices before the split

@@ -21,9 +21,11 @@ struct Bound {
 struct ReichStrebel {
     double lower = 0;  ///< 1/I⁻ ≤ K* for every quasiconformal f in the class and holomorphic φ
     double estimate = 0;  ///< √(I⁺/I⁻) = (1+k)/(1−k) with S of the c-step; lower ≤ estimate ≤ K of the worst face
-    double upper = 0;       ///< I⁺, which K* approaches from below at the extremal φ
-    bool valid = false;     ///< false where the map has |μ| ≥ 1 somewhere, or φ or μ is not finite
-    bool resolved = false;  ///< the quadrature has resolved the singularities of φ
+    double upper = 0;    ///< I⁺, which K* approaches from below at the extremal φ
+    bool valid = false;  ///< false where the map has |μ| ≥ 1 somewhere, or φ or μ is not finite
+    /// The quadrature has resolved the singularities of φ. Never so for a tabulated φ, which is not known to be
+    /// holomorphic: all numbers are then estimates, no bounds.
+    bool resolved = false;
 };
 
 /// The same from the integrals ∫|φ|, ∫|φ|(1+|μ|²)/(1−|μ|²) and 2 Re ∫μφ/(1−|μ|²).
@@ -31,8 +33,8 @@ struct ReichStrebel {
 ReichStrebel reich_strebel_of(double total, double norm, double pairing, double unresolved);
 
 /// Evaluates the Reich-Strebel integrals for the combination of @p space with the given coefficients, by adaptive
-/// quadrature (differential_quadrature.h); μ is constant on a sample, which has its quarter of a quad. Samples that the
-/// chart excludes take no part.
+/// quadrature (differential_quadrature.h), or at one point a sample for a tabulated space; μ is constant on a sample,
+/// which has its quarter of a quad. Samples that the chart excludes take no part.
 /// @param mu #S coefficients of the map
 ReichStrebel reich_strebel(const Surface& source, const Chart& chart, const DifferentialSpace& space,
                            const Eigen::VectorXcd& coefficients, const Eigen::VectorXcd& mu);

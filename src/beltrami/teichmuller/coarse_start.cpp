@@ -78,6 +78,7 @@ HamiltonState coarse_start(const Surface& source, const BoundaryCondition& bound
     HamiltonIteration::Options coarse_options = iteration_options(options);
     coarse_options.progress = {};
     coarse_options.grow_last = false;
+    problem.map_step().set_near(false);
     HamiltonIteration iteration(model, problem.map_step(), problem.coefficient_step(), coarse_options);
     HamiltonState state;
     // The degrees that the fine mesh resolves: on the coarse one the highest are rough, which is good enough for a

@@ -44,9 +44,9 @@ CoefficientStep::CoefficientStep(const Surface& source, const Chart& chart, cons
     edge_ = std::sqrt(area / static_cast<double>(source.operators.sample_count()));
 }
 
-/// The clusters' points, or those of a cluster's only sample where it has several.
+/// The clusters' points; where a cluster is one sample that has several, those.
 void CoefficientStep::set_quadrature(const SamplePoints& means) {
-    const auto clusters = clusters_.points.positions.size();
+    const auto clusters = static_cast<std::size_t>(clusters_.points.positions.size());
     std::vector<int> samples(clusters, 0);
     std::vector<double> area(clusters, 0.0);
     for (std::size_t s = 0; s < clusters_.cluster.size(); ++s)
@@ -55,37 +55,43 @@ void CoefficientStep::set_quadrature(const SamplePoints& means) {
             area[clusters_.cluster[s]] += clusters_.squared[s];
         }
     std::vector<Complex> places;
-    std::vector<double> parts, weights;
     std::vector<char> divided(clusters, 0);
     for (std::size_t i = 0; i < means.samples.size(); ++i) {
         const int cluster = clusters_.cluster[means.samples[i]];
         if (cluster < 0 || samples[cluster] != 1) continue;
         divided[cluster] = 1;
-        cluster_means_.samples.push_back(cluster);
         places.push_back(means.points.positions[static_cast<Eigen::Index>(i)]);
-        parts.push_back(means.weights[static_cast<Eigen::Index>(i)]);
-        weights.push_back(parts.back() * area[cluster]);
+        parts_.push_back({cluster, means.weights[static_cast<Eigen::Index>(i)]});
     }
-    const auto count = static_cast<Eigen::Index>(places.size());
-    cluster_means_.points.positions = Eigen::Map<const Eigen::VectorXcd>(places.data(), count);
-    cluster_means_.points.derivatives = Eigen::VectorXcd::Ones(count);
-    cluster_means_.weights = Eigen::Map<const Eigen::VectorXd>(parts.data(), count);
-    for (Eigen::Index q = 0; q < clusters; ++q)
+    for (std::size_t q = 0; q < clusters; ++q)
         if (!divided[q]) {
-            places.push_back(clusters_.points.positions[q]);
-            weights.push_back(area[q]);
+            places.push_back(clusters_.points.positions[static_cast<Eigen::Index>(q)]);
+            parts_.push_back({static_cast<int>(q), 1.0});
         }
     const auto all = static_cast<Eigen::Index>(places.size());
-    quadrature_ = {Eigen::Map<const Eigen::VectorXcd>(places.data(), all),
-                   Eigen::Map<const Eigen::VectorXd>(weights.data(), all)};
+    quadrature_ = {Eigen::Map<const Eigen::VectorXcd>(places.data(), all), Eigen::VectorXd(all)};
+    for (Eigen::Index q = 0; q < all; ++q) quadrature_.weights[q] = parts_[q].part * area[parts_[q].cluster];
+}
+
+/// Weights of the samples as weights of the points of the norm: the samples, and after them the points of samples that
+/// have several, which leave 0 to their sample.
+Eigen::VectorXd CoefficientStep::at_points(const Eigen::VectorXd& of_samples) const {
+    const SamplePoints& means = sampled_.means();
+    const Eigen::Index samples = of_samples.size(), points = means.weights.size();
+    if (points == 0) return of_samples;
+    Eigen::VectorXd result(samples + points);
+    result.head(samples) = of_samples;
+    for (Eigen::Index i = 0; i < points; ++i) result[samples + i] = means.weights[i] * of_samples[means.samples[i]];
+    for (const int s : means.samples) result[s] = 0;
+    return result;
 }
 
 void CoefficientStep::set_space(const DifferentialSpace& space) {
     sampled_.set(space);
-    problem_.basis = space.generators(clusters_.points);
-    if (!cluster_means_.samples.empty())
-        take_means(cluster_means_, space.generators(cluster_means_.points), problem_.basis);
-    if (space.transform()) problem_.basis = complex_product(problem_.basis, *space.transform());
+    problem_.basis = space.tabulated()
+                         ? means_over_clusters(*space.tabulated(), clusters_, chart_)
+                         : space.evaluate({quadrature_.points, Eigen::VectorXcd::Ones(quadrature_.points.size())});
+    if (space.tabulated() && space.transform()) problem_.basis = complex_product(problem_.basis, *space.transform());
     problem_.complex_coefficients = space.complex_coefficients();
 }
 
@@ -115,24 +121,15 @@ namespace {
 /// then those of the points.
 class SampleNorm final : public DualNorm {
   public:
-    /// @param weights #S A a, 0 where the chart excludes the sample
-    SampleNorm(const SampledSpace& space, const Chart& chart, const Eigen::VectorXd& weights) : space_(space) {
-        const SamplePoints& means = space.means();
-        const Eigen::Index samples = weights.size(), points = means.weights.size();
-        weights_.resize(samples + points);
-        scales_.resize(samples + points);
-        weights_.head(samples) = weights;
-        scales_.head(samples) = chart.derivatives.cwiseAbs2();
-        weights_.tail(points) = means.weights;
-        scales_.tail(points) = means.points.derivatives.cwiseAbs2();
-        for (Eigen::Index i = 0; i < points; ++i) weights_[samples + i] *= weights[means.samples[i]];
-        for (const int s : means.samples) weights_[s] = 0;
-        samples_ = samples;
-    }
+    /// @param weights A a of every point, 0 where the chart excludes the sample
+    SampleNorm(const SampledSpace& space, const Chart& chart, const Eigen::VectorXd& weights)
+        : space_(space), chart_(chart), weights_(weights), samples_(static_cast<int>(chart.excluded.size())) {}
     Eigen::VectorXcd values(const Eigen::VectorXcd& c) const override {
+        const Eigen::Index points = weights_.size() - samples_;
+        if (points == 0) return space_.combination(c);
         Eigen::VectorXcd all(weights_.size());
         all.head(samples_) = space_.combination(c);
-        if (all.size() > samples_) all.tail(all.size() - samples_) = space_.combination_at_means(c);
+        all.tail(points) = space_.combination_at_means(c);
         return all;
     }
     double norm(const Eigen::VectorXcd& phi, double delta) const override {
@@ -150,19 +147,22 @@ class SampleNorm final : public DualNorm {
                 direction(s, 0) = of > 0 ? weights_[s] / std::sqrt(of) * std::conj(phi[s]) : 0.0;
             }
         });
-        Eigen::VectorXcd result = space_.pair(direction.topRows(samples_));
-        if (phi.size() > samples_) result += space_.pair_at_means(direction.bottomRows(phi.size() - samples_));
-        return result;
+        const Eigen::Index points = phi.size() - samples_;
+        if (points == 0) return space_.pair(direction);
+        return space_.pair(direction.topRows(samples_)) + space_.pair_at_means(direction.bottomRows(points));
     }
 
   private:
     double square(Complex phi, int s, double delta) const {
-        const double rounded = delta * scales_[s];
+        const Complex derivative =
+            s < samples_ ? chart_.derivatives[s] : space_.means().points.derivatives[s - samples_];
+        const double rounded = delta * std::norm(derivative);
         return std::norm(phi) + rounded * rounded;
     }
     const SampledSpace& space_;
-    Eigen::VectorXd weights_, scales_;  // of samples and points: scales |derivative|²
-    Eigen::Index samples_;
+    const Chart& chart_;
+    const Eigen::VectorXd& weights_;
+    int samples_;
 };
 
 }  // namespace
@@ -172,15 +172,19 @@ CoefficientStep::Result CoefficientStep::solve(const Eigen::VectorXcd& mu, const
     const int samples = source_.operators.sample_count();
     Eigen::MatrixXcd pairing_weight = Eigen::MatrixXcd::Zero(samples, 1);  // A b
     Eigen::VectorXd norm_weight = Eigen::VectorXd::Zero(samples);          // A a
-    problem_.weights = Eigen::VectorXd::Zero(problem_.basis.rows());
+    Eigen::VectorXd cluster_weight = Eigen::VectorXd::Zero(clusters_.points.positions.size());
     for (int s = 0; s < samples; ++s) {
         if (chart_.excluded[s]) continue;
         const Complex m = clipped(mu[s]);
         const double square = std::norm(m), area = source_.operators.weights[s];
         pairing_weight(s, 0) = area / (1 - square) * m;
         norm_weight[s] = area * (1 + square) / (1 - square);
-        problem_.weights[clusters_.cluster[s]] += clusters_.squared[s] * (1 + square) / (1 - square);
+        cluster_weight[clusters_.cluster[s]] += clusters_.squared[s] * (1 + square) / (1 - square);
     }
+    norm_weight = at_points(norm_weight);
+    problem_.weights.resize(static_cast<Eigen::Index>(parts_.size()));
+    for (std::size_t q = 0; q < parts_.size(); ++q)
+        problem_.weights[static_cast<Eigen::Index>(q)] = parts_[q].part * cluster_weight[parts_[q].cluster];
     problem_.pairing = sampled_.pair(pairing_weight);
     const SampleNorm norm(sampled_, chart_, norm_weight);
     Eigen::VectorXcd at = start;
@@ -203,9 +207,12 @@ CoefficientStep::Result CoefficientStep::solve(const Eigen::VectorXcd& mu, const
     if (!(size > 0)) return result;
     const double pairing = dual.pairing / length;
     result.k = dilatation_of_pairing(2 * pairing / size);
-    Eigen::VectorXd plain(samples);
-    for (int s = 0; s < samples; ++s) plain[s] = chart_.excluded[s] ? 0.0 : source_.operators.weights[s];
-    result.merit = SampleNorm(sampled_, chart_, plain).norm(phi, 0) / (size - 2 * pairing);
+    const Eigen::VectorXd areas =
+        at_points(Eigen::Map<const Eigen::VectorXd>(source_.operators.weights.data(), samples));
+    double plain = 0;
+    for (Eigen::Index i = 0; i < phi.size(); ++i)
+        if (norm_weight[i] > 0) plain += areas[i] * std::abs(phi[i]);
+    result.merit = plain / (size - 2 * pairing);
     return result;
 }
 

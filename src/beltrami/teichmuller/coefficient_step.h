@@ -54,14 +54,20 @@ class CoefficientStep {
     Result solve(const Eigen::VectorXcd& mu, const Eigen::VectorXcd& start, double step = 0, int newton_steps = 50);
 
   private:
+    /// A part of a cluster.
+    struct Part {
+        int cluster;
+        double part;
+    };
     void set_quadrature(const SamplePoints& means);
+    Eigen::VectorXd at_points(const Eigen::VectorXd& of_samples) const;
 
     const Surface& source_;
     const Chart& chart_;
     SampledSpace sampled_;
     SampleClusters clusters_;
-    SamplePoints cluster_means_;  ///< of clusters of one sample that has several points; derivatives 1
     QuadraturePoints quadrature_;
+    std::vector<Part> parts_;  ///< for which those points stand
     DualProblem problem_;
     double least_rounding_ = 0;
     bool soft_ = false;  ///< see coefficient()

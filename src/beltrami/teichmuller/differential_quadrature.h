@@ -30,9 +30,11 @@ struct QuadratureOptions {
 /// points inside (Dunavant 1985), so that a pole may lie on a vertex. Every Gauss sample of a quad has its quarter of
 /// it. With an exact chart positions and derivatives are those of the analytic map at the very points, and φ is
 /// holomorphic there; else positions are interpolated and the derivative is the sample's. Samples that the chart
-/// excludes take no part. The order of the calls does not depend on the number of threads.
+/// excludes take no part. A tabulated space is known at the samples only: each is visited once, with its whole area,
+/// and all of ∫|φ| counts as unresolved. The order of the calls does not depend on the number of threads.
 /// @param coefficients space.size() of them
-/// @return the part of ∫|φ| in triangles that vary too much still; infinite if φ is not finite at some
+/// @return the part of ∫|φ| in triangles that vary too much still, 1 for a tabulated space; infinite if φ is not finite
+/// at some
 ///         point (the visits end there)
 double visit_quadrature(const Surface& source, const Chart& chart, const DifferentialSpace& space,
                         const Eigen::VectorXcd& coefficients, const std::function<void(const FacePoint&)>& visit,

@@ -144,7 +144,9 @@ DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& star
     const double total = problem.weights.sum();
     const double delta = total > 0 ? problem.rounding * problem.weights.dot(coarse_phi.cwiseAbs()) / total : 0.0;
     double norm = fine.norm(phi, delta);
-    for (; solution.newton_steps < options.max_steps; ++solution.newton_steps) {
+    // The hyperplane of a single real function is a point.
+    solution.converged = x.size() == 1;
+    for (; x.size() > 1 && solution.newton_steps < options.max_steps; ++solution.newton_steps) {
         const Eigen::VectorXd gradient = view.covector(fine.gradient(phi, delta));
         Eigen::MatrixXd hessian = dual_hessian(problem, view, coarse_phi, delta);
         // c itself is a null direction (N is homogeneous of degree one). On the hyperplane a multiple of p pᵀ changes
@@ -211,7 +213,7 @@ SampleClusters cluster_samples(const Operators& operators, const Chart& chart, c
         ++included;
     }
     int clusters = 0;
-    if (included <= target_count) {
+    if (included <= target_count || chart.positions.size() == 0) {
         result.cluster.assign(samples, -1);
         for (int s = 0; s < samples; ++s)
             if (!chart.excluded[s]) result.cluster[s] = clusters++;
@@ -227,11 +229,27 @@ SampleClusters cluster_samples(const Operators& operators, const Chart& chart, c
     Eigen::VectorXd mass = Eigen::VectorXd::Zero(clusters);
     for (int s = 0; s < samples; ++s) {
         if (chart.excluded[s]) continue;
-        result.points.positions[result.cluster[s]] += result.squared[s] * chart.positions[s];
+        if (chart.positions.size())
+            result.points.positions[result.cluster[s]] += result.squared[s] * chart.positions[s];
         mass[result.cluster[s]] += result.squared[s];
     }
     for (int q = 0; q < clusters; ++q) result.points.positions[q] /= mass[q];
     return result;
+}
+
+Eigen::MatrixXcd means_over_clusters(const Eigen::MatrixXcd& values, const SampleClusters& clusters,
+                                     const Chart& chart) {
+    const Eigen::Index count = clusters.points.positions.size();
+    Eigen::MatrixXcd means = Eigen::MatrixXcd::Zero(count, values.cols());
+    Eigen::VectorXd mass = Eigen::VectorXd::Zero(count);
+    for (Eigen::Index s = 0; s < values.rows(); ++s) {
+        const int q = clusters.cluster[s];
+        if (q < 0) continue;
+        mass[q] += clusters.squared[s];
+        means.row(q) += clusters.squared[s] / (chart.derivatives[s] * chart.derivatives[s]) * values.row(s);
+    }
+    for (Eigen::Index q = 0; q < count; ++q) means.row(q) /= mass[q];
+    return means;
 }
 
 }  // namespace beltrami

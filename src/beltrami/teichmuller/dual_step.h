@@ -74,8 +74,14 @@ struct SampleClusters {
 
 /// @param phase rotation of the grid, to be tied to the data so that turning the source changes nothing
 /// @param target_count about how many clusters away from singularities, to which more are added; at most as many as
-///                     samples
+///                     samples. A chart without positions gives each sample its own.
 SampleClusters cluster_samples(const Operators& operators, const Chart& chart, const Singularities& singularities,
                                double phase, int target_count);
+
+/// Values at the clusters, in the canonical domain, of functions known at the samples: means of φ / derivative²,
+/// weighted by area in the domain. #Q × #columns.
+/// @param values #S × #columns, in the samples' frames
+Eigen::MatrixXcd means_over_clusters(const Eigen::MatrixXcd& values, const SampleClusters& clusters,
+                                     const Chart& chart);
 
 }  // namespace beltrami

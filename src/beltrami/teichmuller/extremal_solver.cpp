@@ -218,8 +218,8 @@ struct ExtremalSolver::Implementation {
     }
 
     /// Runs the iteration from where it stands.
-    void iterate_once(HamiltonIteration::Options how) {
-        how.near_last_factor = state.space && problem.solver().factorization_count() > 1;
+    void iterate_once(const HamiltonIteration::Options& how) {
+        problem.map_step().set_near(state.space && problem.solver().factorization_count() > 1);
         HamiltonIteration iteration(source, problem.map_step(), problem.coefficient_step(), how);
         // Only a run from nothing needs a space to begin with, and its basis is costly.
         iteration.run(state, map,
@@ -339,7 +339,7 @@ ExtremalSolver::Update ExtremalSolver::update(const std::vector<Complex>& images
     moved.images = images;
     require_feasible(m.source, moved, m.options.outer_loop);
     m.boundary = std::move(moved);
-    m.problem.map_step().prescribed = prescribed_values(m.boundary, m.source);
+    m.problem.map_step().prescribe(prescribed_values(m.boundary, m.source), line_directions(m.boundary, m.source));
     HamiltonIteration::Options how = iteration_options(m.options);
     how.max_iterations = max_iterations;
     how.grow_first = how.grow_last = false;

@@ -89,8 +89,6 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
     converged_ = false;
     history_.clear();
     const bool from_elsewhere = state.space != nullptr;
-    bool near_last_factor = options_.near_last_factor;
-    BeltramiSolver& solver = map_step_.solver;
     if (!state.space) {
         state.space = std::move(smallest);
         coefficient_step_.set_space(*state.space);
@@ -116,13 +114,7 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
     bool accelerated = false;
     while (iterations_ < options_.max_iterations) {
         const Eigen::VectorXcd nu = coefficient_step_.coefficient(state.k, coefficient_step_.values(state.direction));
-        if (near_last_factor) {
-            map_ = solver.solve_near(nu, map_step_.prescribed, map_, kSolveBelowChange * std::min(change, 0.1));
-        } else {
-            solver.factorize(nu, map_step_.directions);
-            map_ = solver.solve(map_step_.prescribed);
-            near_last_factor = true;
-        }
+        map_step_.solve(nu, map_, kSolveBelowChange * std::min(change, 0.1));
         ++iterations_;
         const Eigen::VectorXcd mu = beltrami_coefficient(source_.operators, map_);
         step_ = coefficient_step_.solve(mu, state.direction, kStepBelowChange * std::min(change, 0.1), kNewtonSteps);

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include <beltrami/maps/beltrami_solver.h>
 #include <beltrami/teichmuller/coefficient_step.h>
+#include <beltrami/teichmuller/map_step.h>
 
 namespace beltrami {
 
@@ -22,13 +22,6 @@ struct Iteration {
     int functions;  ///< dimension of the space of differentials
 };
 
-/// The f-step of a problem: a solver with what it prescribes.
-struct MapStep {
-    BeltramiSolver& solver;
-    Eigen::VectorXcd prescribed;  ///< #V values of the fixed vertices, points on their lines for sliding ones
-    Eigen::VectorXcd directions;  ///< #V of sliding vertices; empty if none slides
-};
-
 /// Hamilton's iteration, the one loop for every topology: the c-step finds φ and k of a map, the f-step the map with
 /// the coefficient k conj(φ)/|φ|, until both settle. Anderson acceleration on (direction of φ, k).
 class HamiltonIteration {
@@ -42,8 +35,6 @@ class HamiltonIteration {
         /// When a larger space is tried, besides at a start from nothing: with the first map that comes from another
         /// problem's state, and once all has settled.
         bool grow_first = true, grow_last = true;
-        /// The solver's last factorisation is near: conjugate gradients with it may do from the first f-step on.
-        bool near_last_factor = false;
         std::function<bool(int iteration, double k)> progress;
     };
 

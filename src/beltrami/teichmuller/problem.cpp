@@ -80,9 +80,9 @@ ExtremalProblem::ExtremalProblem(const Surface& source, const BoundaryCondition&
     : source_(source),
       boundary_(boundary),
       solver_(source, freedoms(boundary, source), expected_factorizations),
-      map_step_{solver_, prescribed_values(boundary, source), line_directions(boundary, source)} {
-    solver_.factorize(Eigen::VectorXcd::Zero(source.operators.sample_count()), map_step_.directions);
-    harmonic_ = solver_.solve(map_step_.prescribed);
+      map_step_(solver_) {
+    map_step_.prescribe(prescribed_values(boundary, source), line_directions(boundary, source));
+    map_step_.solve(Eigen::VectorXcd::Zero(source.operators.sample_count()), harmonic_, 0);
 }
 
 void ExtremalProblem::set_chart(Chart chart, Singularities singularities, int cluster_count) {

@@ -24,7 +24,7 @@ class ExtremalProblem {
     const Surface& source() const { return source_; }
     BeltramiSolver& solver() { return solver_; }
     const BeltramiSolver& solver() const { return solver_; }
-    MapStep& map_step() { return map_step_; }
+    FixedMapStep& map_step() { return map_step_; }
     const Eigen::VectorXcd& harmonic() const { return harmonic_; }
     const Chart& chart() const { return chart_; }
     CoefficientStep& coefficient_step() { return *coefficient_step_; }
@@ -41,7 +41,7 @@ class ExtremalProblem {
     const Surface& source_;
     BoundaryCondition boundary_;
     BeltramiSolver solver_;
-    MapStep map_step_;
+    FixedMapStep map_step_;
     Eigen::VectorXcd harmonic_;
     Chart chart_;
     Singularities singularities_;

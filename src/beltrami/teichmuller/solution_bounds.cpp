@@ -58,7 +58,8 @@ SolutionBounds solution_bounds(const Solution& s, std::optional<int> subdivision
     SharpenedBound sharp;
     SameClass same;
     // On a finer mesh the map may fold where it does not on the mesh itself.
-    for (int n = s.boundary.lines.empty() ? subdivisions.value_or(-1) : -1; n >= 0 && !sharp.integrals.valid; --n) {
+    const bool sharpens = s.boundary.lines.empty() && !s.space.tabulated();  // known at the samples of this mesh only
+    for (int n = sharpens ? subdivisions.value_or(-1) : -1; n >= 0 && !sharp.integrals.valid; --n) {
         SharpenedBoundOptions options;
         options.subdivisions = n;
         try {

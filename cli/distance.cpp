@@ -1,0 +1,104 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include <beltrami/io/atomic_file.h>
+#include <beltrami/mesh/error.h>
+#include <beltrami/report/dendrogram.h>
+
+#include "command.h"
+
+namespace beltrami::cli {
+
+namespace {
+
+class DistanceCommand final : public Command {
+  public:
+    explicit DistanceCommand(CLI::App& parent) {
+        CLI::App* app = parent.add_subcommand(
+            "distance", "Teichmueller's distance ½ log K* between shapes of one topology, with its bracket");
+        app->add_option("MESH", meshes_, "two or more: OBJ, PLY, OFF or STL, of genus 0 with as many boundary loops")
+            ->required()
+            ->expected(2, 1 << 20);
+        app->add_option("--outer", outer_, "the boundary loop of every shape that goes to the others' outer one")
+            ->check(CLI::NonNegativeNumber)
+            ->capture_default_str()
+            ->type_name("h");
+        app->add_option("--match", match_, "holes go to those nearest after the best rotation, or of like size")
+            ->check(CLI::IsMember({"position", "size"}))
+            ->capture_default_str();
+        app->add_option("--picture", picture_, "the matrix and the tree of its clusters, as SVG")
+            ->type_name("FILE.svg");
+        common_.add_to(*app);
+        app->footer(kExitCodes);
+    }
+
+    int run() override {
+        if (!common_.report.empty())
+            throw Error(Cause::bad_option, "distance has no map to report on", "use --picture");
+        std::vector<NamedFile> inputs;
+        for (const std::string& mesh : meshes_) inputs.push_back({"MESH", mesh});
+        common_.check_files(inputs, {{"--picture", picture_}});
+        Record record;
+        record.command = "distance";
+        std::vector<Surface> surfaces;
+        for (const std::string& mesh : meshes_) {
+            surfaces.emplace_back(load(mesh, record.warnings));
+            add_findings(surfaces.back().findings, record.warnings);
+        }
+        record.source = source_record(surfaces[0]);
+        OntoOptions options;
+        options.outer_loop = outer_;
+        options.match_by = match_ == "size" ? MatchBy::size : MatchBy::position;
+        DistanceMatrix matrix;
+        {
+            Progress progress(!common_.quiet);
+            matrix = distance_matrix(surfaces, options, [&](int done, int all) {
+                progress.show(done, static_cast<double>(all), "of");
+                return true;
+            });
+        }
+        for (const auto& [i, j] : matrix.unsettled)
+            record.warnings.push_back(meshes_[i] + " and " + meshes_[j] +
+                                      ": a map has not converged or has folds, their distance is an estimate");
+        record.distances = {meshes_, matrix, cluster_by_distance(matrix.distance)};
+        if (!picture_.empty())
+            write_atomically(picture_, render_dendrogram(names(), matrix.distance, record.distances->merges));
+        if (common_.may_print()) print(matrix);
+        finish(record, common_, {}, {common_.json, picture_});
+        return 0;
+    }
+
+  private:
+    /// File names without their folders and extensions.
+    std::vector<std::string> names() const {
+        std::vector<std::string> result;
+        for (const std::string& mesh : meshes_) {
+            const std::size_t slash = mesh.find_last_of('/');
+            const std::string file = slash == std::string::npos ? mesh : mesh.substr(slash + 1);
+            result.push_back(file.substr(0, file.find_last_of('.')));
+        }
+        return result;
+    }
+
+    void print(const DistanceMatrix& matrix) const {
+        for (Eigen::Index i = 0; i < matrix.distance.rows(); ++i)
+            for (Eigen::Index j = i + 1; j < matrix.distance.cols(); ++j)
+                fmt::print("{} {}: {:.6f} (between {:.6f} and {:.6f}), K = {:.6f}\n", meshes_[i], meshes_[j],
+                           matrix.distance(i, j), matrix.lower(i, j), matrix.upper(i, j),
+                           std::exp(2 * matrix.distance(i, j)));
+    }
+
+    std::vector<std::string> meshes_;
+    std::string match_ = "position", picture_;
+    int outer_ = 0;
+    CommonOptions common_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_distance(CLI::App& parent) {
+    return std::make_unique<DistanceCommand>(parent);
+}
+
+}  // namespace beltrami::cli

@@ -1,0 +1,118 @@
+#include "onto_options.h"
+
+#include <limits>
+
+#include <fmt/format.h>
+
+#include <beltrami/io/atomic_file.h>
+#include <beltrami/io/extension.h>
+#include <beltrami/io/number_lists.h>
+#include <beltrami/mesh/error.h>
+#include <beltrami/report/target_file.h>
+
+#include "command.h"
+#include "parse.h"
+
+namespace beltrami::cli {
+
+void OntoTarget::add_to(CLI::App& app) {
+    app.add_option("--onto", path_,
+                   "the boundary slides: every boundary loop of SOURCE goes onto its partner of TARGET, a mesh with as "
+                   "many boundary loops, or a domain in JSON: {\"outer\": LOOP, \"holes\": [LOOP, ...]}, LOOP one of "
+                   "{\"circle\": [x,y,r]}, {\"polygon\": [[x,y],...]}, {\"spline\": [[x,y],...]}")
+        ->type_name("TARGET");
+    app.add_option("--loops", pair_specs_,
+                   "pairs of boundary loops, SOURCE's as `beltrami info` prints them and TARGET's (of a domain: 0 the "
+                   "outer curve, then the holes from 1); default: matched, see --match")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->type_name("0:0,1:2,...");
+    app.add_option("--match", match_,
+                   "without --loops, holes go to those nearest after the best rotation, or of like size")
+        ->check(CLI::IsMember({"position", "size"}))
+        ->capture_default_str();
+    app.add_option("--marks", marks_file_,
+                   "boundary vertices of SOURCE with their places on the curves of a domain: a line `source_vertex x "
+                   "y` each, the nearest point of the nearest curve is meant")
+        ->type_name("FILE");
+    app.add_option("--mark-vertices", mark_vertices_file_,
+                   "the same with vertices of a mesh TARGET: a line `source_vertex target_vertex` each")
+        ->type_name("FILE");
+    app.add_option("--places", places_,
+                   "where on a mesh TARGET every vertex goes: a line `vertex face a b c wa wb wc` each, the face's "
+                   "vertices a b c with their barycentric weights")
+        ->type_name("FILE");
+}
+
+std::string OntoTarget::stray() const {
+    if (!pair_specs_.empty()) return "--loops";
+    if (!marks_file_.empty()) return "--marks";
+    if (!mark_vertices_file_.empty()) return "--mark-vertices";
+    if (!places_.empty()) return "--places";
+    return match_ == "position" ? "" : "--match";
+}
+
+std::vector<NamedFile> OntoTarget::inputs() const {
+    return {{"--onto", path_}, {"--marks", marks_file_}, {"--mark-vertices", mark_vertices_file_}};
+}
+
+void OntoTarget::load(const Surface& source, std::vector<std::string>& warnings) {
+    if (lower_case_extension(path_) == ".json") {
+        domain_ = read_target_domain(path_);
+    } else {
+        surface_.emplace(cli::load(path_, warnings));
+        add_findings(surface_->findings, warnings);
+    }
+    for (const std::string& spec : pair_specs_) {
+        const std::size_t colon = spec.find(':');
+        const auto loop = whole_number(spec.substr(0, colon)),
+                   partner = colon == std::string::npos ? std::nullopt : whole_number(spec.substr(colon + 1));
+        if (!loop || !partner || *loop < 0 || *partner < 0)
+            throw Error(Cause::bad_option, "--loops " + spec + " is not a pair s:t of loops",
+                        "`beltrami info` prints the loops' numbers");
+        pairs_.push_back({*loop, *partner});
+    }
+    read_marks(source);
+    if (!places_.empty() && domain_)
+        throw Error(Cause::bad_option, "--places is about the faces of a mesh, TARGET is a domain", "leave it out");
+}
+
+void OntoTarget::read_marks(const Surface& source) {
+    if (!marks_file_.empty()) {
+        if (!domain_)
+            throw Error(Cause::bad_option, "--marks is about the curves of a domain, TARGET is a mesh",
+                        "give --mark-vertices");
+        const IndexedRows rows =
+            read_indexed_rows(marks_file_, 1, source.mesh.vertex_count(), 2, "a marked vertex with its place");
+        for (Eigen::Index i = 0; i < rows.indices.rows(); ++i)
+            marks_.push_back({rows.indices(i, 0), Complex(rows.values(i, 0), rows.values(i, 1))});
+    }
+    if (mark_vertices_file_.empty()) return;
+    if (!surface_)
+        throw Error(Cause::bad_option, "--mark-vertices is about the vertices of a mesh, TARGET is a domain",
+                    "give --marks");
+    const IndexedRows rows = read_indexed_rows(mark_vertices_file_, 2, std::numeric_limits<int>::max(), 0,
+                                               "a marked vertex with its partner");
+    for (Eigen::Index i = 0; i < rows.indices.rows(); ++i)
+        mark_vertices_.push_back({rows.indices(i, 0), rows.indices(i, 1)});
+}
+
+void OntoTarget::apply(OntoOptions& options) const {
+    options.loops = pairs_;
+    options.match_by = match_ == "size" ? MatchBy::size : MatchBy::position;
+    options.mark_vertices = mark_vertices_;
+    for (const PlaceMark& mark : marks_) options.marks.push_back(nearest_mark(*domain_, mark.vertex, mark.place));
+}
+
+void OntoTarget::write_places(const std::vector<MeshPoint>& places) const {
+    if (places_.empty()) return;
+    std::string text = "# vertex face a b c weight_a weight_b weight_c\n";
+    for (std::size_t v = 0; v < places.size(); ++v) {
+        const MeshPoint& p = places[v];
+        text += fmt::format("{} {} {} {} {} {:.17g} {:.17g} {:.17g}\n", v, p.face, p.vertices[0], p.vertices[1],
+                            p.vertices[2], p.barycentric[0], p.barycentric[1], p.barycentric[2]);
+    }
+    write_atomically(places_, text);
+}
+
+}  // namespace beltrami::cli

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <beltrami/teichmuller/extremal_onto.h>
+
+#include "files.h"
+
+namespace beltrami::cli {
+
+/// --onto, --loops, --match, --marks, --mark-vertices, --places: a target onto which the boundary slides.
+class OntoTarget {
+  public:
+    void add_to(CLI::App& app);
+    bool given() const { return !path_.empty(); }
+    /// Whether an option that belongs to --onto was given; its name.
+    std::string stray() const;
+    std::vector<NamedFile> inputs() const;
+    std::vector<NamedFile> outputs() const { return {{"--places", places_}}; }
+    const std::string& path() const { return path_; }
+    const std::string& places_file() const { return places_; }
+
+    /// Reads the target and the options' files. The reader's warnings are added.
+    /// @throw Error unreadable, bad_option, bad_boundary
+    void load(const Surface& source, std::vector<std::string>& warnings);
+    /// One of them is there. @pre load()
+    const std::optional<TargetDomain>& domain() const { return domain_; }
+    const std::optional<Surface>& surface() const { return surface_; }
+    /// Pairs and marks into the options of the solver. @pre load()
+    void apply(OntoOptions& options) const;
+    /// Writes --places, if it is wanted.
+    void write_places(const std::vector<MeshPoint>& places) const;
+
+  private:
+    void read_marks(const Surface& source);
+
+    std::string path_, match_ = "position", marks_file_, mark_vertices_file_, places_;
+    std::vector<std::string> pair_specs_;
+    std::optional<TargetDomain> domain_;
+    std::optional<Surface> surface_;
+    std::vector<std::array<int, 2>> pairs_, mark_vertices_;
+    struct PlaceMark {
+        int vertex;
+        Complex place;
+    };
+    std::vector<PlaceMark> marks_;
+};
+
+}  // namespace beltrami::cli

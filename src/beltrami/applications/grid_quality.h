@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include <beltrami/mesh/mesh.h>
+
+namespace beltrami {
+
+/// Shape of the faces of a grid that lies on a surface. Angles in radians.
+struct GridQuality {
+    double min_angle = 0;
+    double max_angle = 0;
+    double mean_aspect = 0;  ///< longest edge of a face over its shortest, the mean over all faces
+    double max_aspect = 0;
+    double area_ratio = 1;    ///< largest area of a quad over the smallest
+    std::vector<int> folded;  ///< faces with a corner that is flat or reflex, or turned over against the surface
+};
+
+/// @param normals #V×3 normals of the surface at the vertices of the grid
+GridQuality grid_quality(const Mesh& grid, const Positions& normals);
+
+}  // namespace beltrami

@@ -1,0 +1,101 @@
+#include <beltrami/teichmuller/distance.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <beltrami/mesh/error.h>
+
+namespace beltrami {
+
+namespace {
+
+double half_log(double K) {
+    return 0.5 * std::log(std::max(1.0, K));
+}
+
+Distance distance_of(const ExtremalMapOnto& map) {
+    return {half_log(map.K), half_log(map.K_lower), half_log(map.K_upper),
+            map.termination == Termination::converged && map.one_to_one()};
+}
+
+}  // namespace
+
+Distance teichmueller_distance(const Surface& a, const Surface& b, const OntoOptions& options, int outer,
+                               bool both_ways) {
+    if (both_ways && (!options.loops.empty() || !options.mark_vertices.empty() || options.waypoints))
+        throw Error(Cause::bad_option, "pairs of loops, marks and waypoints are those of one direction",
+                    "ask for that direction only");
+    const Distance there = distance_of(extremal_map(a, b, options, outer).plane);
+    if (!both_ways) return there;
+    OntoOptions reversed = options;
+    reversed.outer_loop = outer;
+    const Distance back = distance_of(extremal_map(b, a, reversed, options.outer_loop).plane);
+    Distance result{0.5 * (there.distance + back.distance), std::max(there.lower, back.lower),
+                    std::min(there.upper, back.upper), there.settled && back.settled};
+    // Errors of second order can make the bounds of the two directions cross.
+    if (result.lower > result.upper) std::swap(result.lower, result.upper);
+    result.distance = std::clamp(result.distance, result.lower, result.upper);
+    return result;
+}
+
+DistanceMatrix distance_matrix(const std::vector<Surface>& surfaces, const OntoOptions& options,
+                               const std::function<bool(int done, int all)>& progress) {
+    const int n = static_cast<int>(surfaces.size());
+    if (n < 2) throw Error(Cause::bad_option, "a distance needs two shapes");
+    for (int i = 1; i < n; ++i)
+        if (surfaces[i].topology.boundary_loops.size() != surfaces[0].topology.boundary_loops.size())
+            throw Error(Cause::bad_boundary,
+                        "shape 0 has " + std::to_string(surfaces[0].topology.boundary_loops.size()) +
+                            " boundary loops, shape " + std::to_string(i) + " has " +
+                            std::to_string(surfaces[i].topology.boundary_loops.size()),
+                        "compare shapes with the same number of holes", {0, i});
+    DistanceMatrix result;
+    result.distance = result.lower = result.upper = Eigen::MatrixXd::Zero(n, n);
+    int done = 0;
+    for (int i = 0; i < n; ++i)
+        for (int j = i + 1; j < n; ++j) {
+            const Distance d = teichmueller_distance(surfaces[i], surfaces[j], options, options.outer_loop);
+            result.distance(i, j) = result.distance(j, i) = d.distance;
+            result.lower(i, j) = result.lower(j, i) = d.lower;
+            result.upper(i, j) = result.upper(j, i) = d.upper;
+            if (!d.settled) result.unsettled.push_back({i, j});
+            ++done;
+            if (progress && !progress(done, n * (n - 1) / 2)) throw Error(Cause::cancelled, "cancelled");
+        }
+    return result;
+}
+
+std::vector<Merge> cluster_by_distance(const Eigen::MatrixXd& distances) {
+    const int n = static_cast<int>(distances.rows());
+    if (distances.cols() != n || !distances.allFinite() || distances != distances.transpose())
+        throw Error(Cause::bad_option, "distances to cluster by must be a finite symmetric matrix");
+    struct Cluster {
+        int name, size;
+    };
+    std::vector<Cluster> clusters;
+    for (int i = 0; i < n; ++i) clusters.push_back({i, 1});
+    Eigen::MatrixXd mean = distances;  // between clusters, in their places
+    std::vector<Merge> merges;
+    while (clusters.size() > 1) {
+        std::size_t a = 0, b = 1;
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < clusters.size(); ++i)
+            for (std::size_t j = i + 1; j < clusters.size(); ++j)
+                if (mean(i, j) < least) least = mean(i, j), a = i, b = j;
+        const Cluster x = clusters[a], y = clusters[b];
+        merges.push_back({std::min(x.name, y.name), std::max(x.name, y.name), least, x.size + y.size});
+        for (std::size_t i = 0; i < clusters.size(); ++i)
+            mean(a, i) = mean(i, a) = (x.size * mean(a, i) + y.size * mean(b, i)) / (x.size + y.size);
+        clusters[a] = {n + static_cast<int>(merges.size()) - 1, x.size + y.size};
+        // The last one moves into the place of b.
+        const std::size_t last = clusters.size() - 1;
+        for (std::size_t i = 0; i < clusters.size(); ++i) mean(b, i) = mean(i, b) = mean(last, i);
+        clusters[b] = clusters[last];
+        clusters.pop_back();
+    }
+    return merges;
+}
+
+}  // namespace beltrami

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <vector>
+
+#include <beltrami/teichmuller/extremal_onto.h>
+
+namespace beltrami {
+
+/// Teichmüller's distance ½ log K* of two shapes of one topology, with its bracket.
+struct Distance {
+    double distance = 0;  ///< from the estimates of K*
+    double lower = 0, upper = 0;
+    bool settled = true;  ///< every map has converged and is free of folds
+};
+
+/// Distance between two surfaces of genus 0 with as many boundary loops, by the extremal map of each onto the other,
+/// whose boundary slides: the lower bound is the larger of the two, the upper one the smaller. Between matched loops
+/// and in the class of straight ways (extremal_onto.h): another matching or a braid may be nearer.
+/// @param options loops, marks and waypoints are those of the map from a to b, and must be absent if both directions
+/// are
+///                wanted
+/// @throw Error as extremal_map
+Distance teichmueller_distance(const Surface& a, const Surface& b, const OntoOptions& options = {}, int outer = 0,
+                               bool both_ways = true);
+
+/// All distances of some shapes: symmetric, 0 on the diagonal.
+struct DistanceMatrix {
+    Eigen::MatrixXd distance, lower, upper;
+    std::vector<std::array<int, 2>> unsettled;  ///< pairs some map of which has not converged or has folds
+};
+
+/// @param surfaces at least two, kept by reference during the call
+/// @param progress called after each pair with their number; returning false cancels (Error cancelled)
+/// @throw Error bad_boundary naming two shapes with different numbers of loops; as extremal_map
+DistanceMatrix distance_matrix(const std::vector<Surface>& surfaces, const OntoOptions& options = {},
+                               const std::function<bool(int done, int all)>& progress = {});
+
+/// A step of hierarchical clustering: two clusters become one.
+struct Merge {
+    int a, b;       ///< a < b: shapes 0 … n−1, then n + i for the cluster of step i
+    double height;  ///< mean distance between their shapes
+    int size;       ///< shapes in the cluster
+};
+
+/// Agglomerative clustering by mean distances (average linkage; Sokal & Michener 1958): n − 1 steps for n shapes. Of
+/// equal heights the pair of smallest numbers is first.
+/// @param distances n×n, symmetric
+/// @throw Error bad_option unless the matrix is square, symmetric and finite
+std::vector<Merge> cluster_by_distance(const Eigen::MatrixXd& distances);
+
+}  // namespace beltrami

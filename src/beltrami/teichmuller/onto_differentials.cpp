@@ -1,0 +1,64 @@
+#include <beltrami/teichmuller/onto_differentials.h>
+
+#include <algorithm>
+#include <limits>
+
+#include <beltrami/differentials/laurent_space.h>
+#include <beltrami/differentials/one_form_squares.h>
+#include <beltrami/differentials/projected_space.h>
+#include <beltrami/mesh/error.h>
+
+namespace beltrami {
+
+namespace {
+
+/// #V tangents of the circles of a circle domain.
+Eigen::VectorXcd circle_tangents(const Surface& source, const CircleDomainChart& domain) {
+    Eigen::VectorXcd result = Eigen::VectorXcd::Zero(source.mesh.vertex_count());
+    const auto& loops = source.topology.boundary_loops;
+    for (std::size_t l = 0; l < loops.size(); ++l)
+        for (const int v : loops[l])
+            result[v] = Complex(0, 1) * (domain.chart.vertices[v] - domain.circle(static_cast<int>(l)).centre);
+    return result;
+}
+
+}  // namespace
+
+OntoDifferentials onto_differentials(const Surface& source, const CircleDomainChart& domain, OntoOptions::Space wanted,
+                                     const std::vector<int>& marked, int dimension) {
+    using Space = OntoOptions::Space;
+    OntoDifferentials result;
+    result.kind = wanted;
+    const bool quadrilateral = domain.holes.empty() && marked.size() == 4;
+    if (result.kind == Space::automatic) result.kind = quadrilateral ? Space::one_form_squares : Space::projection;
+    if (dimension == 0) return result;
+    if (result.kind == Space::one_form_squares) {
+        if (!quadrilateral)
+            throw Error(Cause::bad_option, "squares of 1-forms are for disks with four marks",
+                        "leave the space to be chosen automatically");
+        result.chart = chart_of_frames(source);
+        result.space = std::make_unique<TabulatedSpace>(
+            std::move(quadrilateral_space(source, {marked[0], marked[1], marked[2], marked[3]}).space));
+        result.gap = std::numeric_limits<double>::infinity();
+        return result;
+    }
+    result.chart = domain.chart;
+    if (result.kind == Space::projection) {
+        ProjectionOptions how;
+        how.marked = marked;
+        how.tangents = circle_tangents(source, domain);
+        ProjectedSpace projected = projected_space(source, domain.chart, how);
+        result.gap = projected.gap;
+        result.warnings = std::move(projected.warnings);
+        result.space = std::make_unique<TabulatedSpace>(std::move(projected.space));
+        return result;
+    }
+    const std::optional<RoundDomain> round = round_domain(source, domain.chart, marked);
+    if (!round) throw Error(Cause::not_solved, "the chart of the source is not a circle domain");
+    auto laurent = std::make_unique<LaurentSpace>(*round);
+    result.gap = laurent->fit().next / std::max(laurent->fit().residual, 1e-16);
+    result.space = std::move(laurent);
+    return result;
+}
+
+}  // namespace beltrami

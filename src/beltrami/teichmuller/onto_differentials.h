@@ -1,0 +1,29 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <beltrami/differentials/differential_space.h>
+#include <beltrami/teichmuller/extremal_onto.h>
+
+namespace beltrami {
+
+/// The admissible differentials of a source whose boundary slides, and the chart in which they are written down.
+struct OntoDifferentials {
+    Chart chart;  ///< to the source's circle domain, or the frames of the samples where φ is tabulated on any surface
+    std::unique_ptr<DifferentialSpace> space;  ///< null where there are none: the map is conformal
+    double gap = 0;                            ///< how clearly the dimension was told
+    OntoOptions::Space kind = OntoOptions::Space::automatic;
+    std::vector<std::string> warnings;
+};
+
+/// @param domain    of the source
+/// @param wanted    how they are to be found
+/// @param marked    vertices in the order of the loops
+/// @param dimension by theory
+/// @throw Error bad_option, not_solved
+OntoDifferentials onto_differentials(const Surface& source, const CircleDomainChart& domain, OntoOptions::Space wanted,
+                                     const std::vector<int>& marked, int dimension);
+
+}  // namespace beltrami

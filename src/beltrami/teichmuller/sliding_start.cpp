@@ -1,0 +1,233 @@
+#include <beltrami/teichmuller/sliding_start.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include <beltrami/mesh/error.h>
+
+namespace beltrami {
+
+namespace {
+
+constexpr double kTwoPi = 2 * std::numbers::pi;
+/// Steps on the way of the holes, as part of a straight piece: one that folds is halved.
+constexpr double kLargestStep = 0.5;
+
+std::string loop_name(int loop) {
+    return "boundary loop " + std::to_string(loop);
+}
+
+/// The curve of every loop, and how the source's circle domain is to be turned.
+struct Partners {
+    std::vector<int> curves;
+    double rotation = 0;
+};
+
+Partners partners(const Surface& source, const CircleDomainChart& chart, const TargetModel& target,
+                  const OntoOptions& options) {
+    const int loops = static_cast<int>(source.topology.boundary_loops.size());
+    const int curves = target.domain().curve_count();
+    if (loops != curves)
+        throw Error(Cause::bad_boundary,
+                    "the source has " + std::to_string(loops) + " boundary loops, the target " + std::to_string(curves),
+                    "source and target must have the same number of holes");
+    Partners result;
+    result.curves.assign(loops, -1);
+    result.curves[options.outer_loop] = 0;
+    if (options.loops.empty()) {
+        const CircleMatching matching =
+            match_circle_domains(chart.holes, target.holes(), {options.match_by, options.marks.empty()});
+        for (std::size_t h = 0; h < chart.holes.size(); ++h)
+            result.curves[chart.holes[h].loop] = matching.partner[h] + 1;
+        result.rotation = matching.rotation;
+        return result;
+    }
+    std::vector<char> taken(curves, 0);
+    std::vector<int> given(loops, -1);
+    for (const auto& [loop, curve] : options.loops) {
+        if (loop < 0 || loop >= loops || curve < 0 || curve >= curves)
+            throw Error(Cause::bad_option, "loops pair " + std::to_string(loop) + ":" + std::to_string(curve) +
+                                               ", but there are only loops and curves 0 to " +
+                                               std::to_string(loops - 1));
+        if (given[loop] >= 0 || taken[curve])
+            throw Error(Cause::bad_option,
+                        "loops name loop " + std::to_string(loop) + " or curve " + std::to_string(curve) + " twice");
+        if ((loop == options.outer_loop) != (curve == 0))
+            throw Error(Cause::bad_option,
+                        "the outer loop " + std::to_string(options.outer_loop) + " must go to the outer curve 0",
+                        "name another outer loop");
+        given[loop] = curve;
+        taken[curve] = 1;
+    }
+    given[options.outer_loop] = 0;
+    for (int l = 0; l < loops; ++l)
+        if (given[l] < 0) throw Error(Cause::bad_option, "loops leave out " + loop_name(l), "pair every loop, or none");
+    // The rotation that fits the pairs best.
+    Complex fit = 0;
+    for (const RoundHole& hole : chart.holes) fit += std::conj(hole.centre) * target.circle(given[hole.loop]).centre;
+    result.curves = std::move(given);
+    result.rotation = options.marks.empty() && fit != 0.0 ? std::arg(fit) : 0;
+    return result;
+}
+
+/// Where the vertices of a loop begin on the circle of the model.
+class LoopAngles {
+  public:
+    LoopAngles(const Surface& source, const CircleDomainChart& chart, const TargetModel& target,
+               const OntoOptions& options, int loop, int curve, double rotation)
+        : vertices_(source.topology.boundary_loops[loop]), sign_(curve == 0 ? 1 : -1) {
+        const RoundHole circle = chart.circle(loop);
+        const std::size_t n = vertices_.size();
+        for (std::size_t i = 0; i < n; ++i) {
+            const Complex z = chart.chart.vertices[vertices_[i]] - circle.centre,
+                          next = chart.chart.vertices[vertices_[(i + 1) % n]] - circle.centre;
+            if (i == 0) turns_.push_back(sign_ * std::arg(z));
+            turns_.push_back(turns_.back() + sign_ * std::arg(next / z));
+        }
+        const double ahead = options.start_turns.empty() ? 0 : options.start_turns[loop];
+        for (double& turn : turns_) turn += sign_ * (rotation + ahead);
+        held_.assign(n, 0);
+        place_marks(target, options, curve);
+        turns_.pop_back();
+    }
+    /// Angles on the model's circle.
+    std::vector<double> angles() const {
+        std::vector<double> result;
+        for (const double turn : turns_) result.push_back(sign_ * turn);
+        return result;
+    }
+    const std::vector<char>& held() const { return held_; }
+    /// Arc lengths of the marks, by position; beside held().
+    const std::vector<double>& mark_parameters() const { return parameters_; }
+
+  private:
+    void place_marks(const TargetModel& target, const OntoOptions& options, int curve) {
+        const int n = static_cast<int>(vertices_.size());
+        parameters_.assign(n, 0);
+        struct Placed {
+            int position;
+            double turn;
+        };
+        std::vector<Placed> marks;
+        for (const Mark& mark : options.marks) {
+            const auto at = std::find(vertices_.begin(), vertices_.end(), mark.vertex);
+            if (at == vertices_.end()) continue;
+            const int position = static_cast<int>(at - vertices_.begin());
+            held_[position] = 1;
+            parameters_[position] = mark.parameter;
+            marks.push_back({position, sign_ * target.angle(curve, mark.parameter)});
+        }
+        if (marks.empty()) return;
+        std::sort(marks.begin(), marks.end(), [](const Placed& a, const Placed& b) { return a.position < b.position; });
+        // Forward from mark to mark; the first in the branch nearest to where it would be.
+        marks[0].turn += kTwoPi * std::round((turns_[marks[0].position] - marks[0].turn) / kTwoPi);
+        for (std::size_t m = 1; m < marks.size(); ++m) {
+            const double ahead = std::fmod(marks[m].turn - marks[m - 1].turn, kTwoPi);
+            marks[m].turn = marks[m - 1].turn + (ahead > 0 ? ahead : ahead + kTwoPi);
+        }
+        const std::vector<double> old = turns_;
+        for (std::size_t m = 0; m < marks.size(); ++m) {
+            const bool last = m + 1 == marks.size();
+            const int from = marks[m].position, to = last ? marks[0].position + n : marks[m + 1].position;
+            const double begin = marks[m].turn, end = last ? marks[0].turn + kTwoPi : marks[m + 1].turn;
+            const auto lifted = [&](int i) { return i < n ? old[i] : old[i - n] + (old[n] - old[0]); };
+            for (int i = from; i < to; ++i) {
+                const double part = (lifted(i) - lifted(from)) / (lifted(to) - lifted(from));
+                turns_[i % n] = begin + part * (end - begin) - (i < n ? 0 : kTwoPi);
+            }
+        }
+        turns_[n] = turns_[0] + kTwoPi;
+    }
+
+    const std::vector<int>& vertices_;
+    double sign_;
+    std::vector<double> turns_;  ///< angles in the direction of the loop, ascending
+    std::vector<char> held_;
+    std::vector<double> parameters_;
+};
+
+int folded(const Surface& source, const Eigen::VectorXcd& map) {
+    return static_cast<int>(distortion(source.operators, map).flipped.size());
+}
+
+/// Waypoints in the model.
+std::vector<Waypoint> in_model(const TargetModel& target, const std::vector<Waypoint>& waypoints) {
+    std::vector<Waypoint> result = waypoints;
+    for (Waypoint& waypoint : result) waypoint.position = target.model_place(waypoint.position);
+    return result;
+}
+
+}  // namespace
+
+SlidingStart sliding_start(const Surface& source, const CircleDomainChart& chart, const TargetModel& target,
+                           const OntoOptions& options) {
+    const auto& loops = source.topology.boundary_loops;
+    const Partners matched = partners(source, chart, target, options);
+    validate(options.marks, source, target.domain(), matched.curves);
+    SlidingStart result;
+    result.curves = matched.curves;
+    result.rotation = matched.rotation;
+    BoundaryCondition model;
+    for (std::size_t l = 0; l < loops.size(); ++l) {
+        const int curve = matched.curves[l];
+        const LoopAngles angles(source, chart, target, options, static_cast<int>(l), curve, matched.rotation);
+        const RoundHole circle = target.circle(curve);
+        const std::vector<double> at = angles.angles();
+        SlidingLoop sliding{static_cast<int>(l), target.domain().curve(curve), {}, angles.held()};
+        for (std::size_t i = 0; i < loops[l].size(); ++i) {
+            model.pin(loops[l][i], circle.centre + std::polar(circle.radius, at[i]));
+            const double s = sliding.held[i] ? angles.mark_parameters()[i] : target.parameter(curve, at[i]);
+            sliding.parameters.push_back(
+                i == 0 ? s : sliding.parameters.back() + sliding.curve.ahead(sliding.parameters.back(), s));
+        }
+        result.loops.push_back(std::move(sliding));
+    }
+
+    Eigen::VectorXcd map = harmonic_map(source, model);
+    result.factorizations = 1;
+    result.flips = folded(source, map);
+    if (options.waypoints || result.flips > 0) {
+        if (options.waypoints) result.path = in_model(target, *options.waypoints);
+        const Continuation way(source, std::polar(1.0, matched.rotation) * chart.chart.vertices, options.outer_loop,
+                               model, result.path);
+        const FollowedMap followed = follow(source, way, kLargestStep);
+        map = followed.map;
+        result.factorizations += followed.steps;
+        result.led = true;
+    }
+    result.map = target.places(map);
+    for (const SlidingLoop& sliding : result.loops)
+        for (std::size_t i = 0; i < loops[sliding.loop].size(); ++i)
+            result.map[loops[sliding.loop][i]] = sliding.curve.point(sliding.parameters[i]);
+    return result;
+}
+
+void hold_what_conformal_maps_move(std::vector<SlidingLoop>& loops, int outer, std::size_t marks) {
+    const std::size_t holes = loops.size() - 1;
+    const std::size_t free = holes == 0 ? 3 : holes == 1 ? 1 : 0;
+    if (marks >= free) return;
+    for (SlidingLoop& sliding : loops) {
+        if (sliding.loop != outer) continue;
+        // Places that share the curve evenly with the marks of this loop.
+        const std::size_t n = sliding.held.size();
+        for (std::size_t more = marks; more < free; ++more) {
+            std::size_t best = 0;
+            double farthest = -1;
+            for (std::size_t i = 0; i < n; ++i) {
+                double nearest = std::numeric_limits<double>::infinity();
+                for (std::size_t j = 0; j < n; ++j)
+                    if (sliding.held[j])
+                        nearest =
+                            std::min(nearest, std::abs(std::remainder(sliding.parameters[i] - sliding.parameters[j],
+                                                                      sliding.curve.length())));
+                if (nearest > farthest * (1 + 1e-9)) farthest = nearest, best = i;
+            }
+            sliding.held[best] = 1;
+        }
+    }
+}
+
+}  // namespace beltrami

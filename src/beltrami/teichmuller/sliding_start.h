@@ -1,0 +1,36 @@
+#pragma once
+
+#include <beltrami/maps/sliding_boundary.h>
+#include <beltrami/teichmuller/extremal_onto.h>
+#include <beltrami/teichmuller/target_model.h>
+
+namespace beltrami {
+
+/// A map of the right class from which boundaries can slide.
+struct SlidingStart {
+    Eigen::VectorXcd map;            ///< #V in the target's plane, boundary vertices on their curves
+    std::vector<SlidingLoop> loops;  ///< in the order of the source's loops; marked vertices are held
+    std::vector<int> curves;         ///< of every loop
+    double rotation = 0;
+    std::vector<Waypoint> path;  ///< that was followed, in the model
+    bool led = false;            ///< along the path; else the map is harmonic
+    int flips = 0;               ///< of the harmonic map
+    int factorizations = 0;
+};
+
+/// Loops are matched, the source's circle domain is turned, and every circle goes to its partner evenly (between marks
+/// if there are any). The harmonic map with these values is the start if it has no folds and no way is prescribed;
+/// else the holes are led along their way (continuation.h) in the unit disk of the model, and the result is carried to
+/// the target.
+/// @param chart circle domain of the source
+/// @throw Error bad_boundary, bad_option, not_solved
+SlidingStart sliding_start(const Surface& source, const CircleDomainChart& chart, const TargetModel& target,
+                           const OntoOptions& options);
+
+/// Holds as many vertices of the outer loop as conformal maps of the source to itself leave free, spread evenly: one of
+/// an annulus, three of a disk, less the marks.
+/// @param outer the outer loop
+/// @param marks how many vertices are marked
+void hold_what_conformal_maps_move(std::vector<SlidingLoop>& loops, int outer, std::size_t marks);
+
+}  // namespace beltrami

@@ -1,0 +1,93 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include <beltrami/generate/round_domains.h>
+#include <beltrami/mesh/error.h>
+#include <beltrami/teichmuller/distance.h>
+
+namespace beltrami {
+namespace {
+
+TEST(Distance, OfTwoRingsIsHalfTheLogarithmOfTheirModuli) {
+    const Surface a(annulus(0.5, 1, 40)), b(annulus(0.3, 1, 40));
+    const Distance d = teichmueller_distance(a, b);
+    const double exact = 0.5 * std::log(std::log(0.3) / std::log(0.5));
+    EXPECT_NEAR(d.distance, exact, 1e-3);
+    EXPECT_LE(d.lower, d.distance);
+    EXPECT_LE(d.distance, d.upper);
+    EXPECT_TRUE(d.settled);
+    const Distance one_way = teichmueller_distance(a, b, {}, 0, false);
+    EXPECT_NEAR(one_way.distance, exact, 2e-3);
+}
+
+TEST(Distance, OfAShapeToItsImageUnderASimilarityIsZero) {
+    const Mesh mesh = annulus(0.5, 1, 40);
+    Mesh moved = mesh;
+    moved.positions = 3 * mesh.positions;
+    const Distance d = teichmueller_distance(Surface(mesh), Surface(moved));
+    EXPECT_LT(d.distance, 1e-6);
+}
+
+TEST(Distance, TakesMarksInOneDirectionOnly) {
+    const Surface a(annulus(0.5, 1, 24)), b(annulus(0.3, 1, 24));
+    OntoOptions options;
+    options.loops = {{0, 0}, {1, 1}};
+    EXPECT_THROW(teichmueller_distance(a, b, options), Error);
+    EXPECT_NO_THROW(teichmueller_distance(a, b, options, 0, false));
+}
+
+TEST(DistanceMatrix, NamesShapesThatAreNotAlike) {
+    std::vector<Surface> surfaces;
+    surfaces.emplace_back(annulus(0.5, 1, 24));
+    surfaces.emplace_back(disk(4));
+    try {
+        distance_matrix(surfaces);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.indices(), (std::vector<int>{0, 1}));
+    }
+}
+
+TEST(ClusterByDistance, MergesByMeanDistances) {
+    // 0 and 2 are near, 1 and 3 are nearer; the mean of the four cross distances joins them.
+    Eigen::MatrixXd d(4, 4);
+    d << 0, 5, 2, 6,  //
+        5, 0, 7, 1,   //
+        2, 7, 0, 8,   //
+        6, 1, 8, 0;
+    const std::vector<Merge> merges = cluster_by_distance(d);
+    ASSERT_EQ(merges.size(), 3u);
+    EXPECT_EQ(merges[0].a, 1);
+    EXPECT_EQ(merges[0].b, 3);
+    EXPECT_EQ(merges[0].height, 1);
+    EXPECT_EQ(merges[1].a, 0);
+    EXPECT_EQ(merges[1].b, 2);
+    EXPECT_EQ(merges[1].height, 2);
+    EXPECT_EQ(merges[2].a, 4);
+    EXPECT_EQ(merges[2].b, 5);
+    EXPECT_DOUBLE_EQ(merges[2].height, (5 + 6 + 7 + 8) / 4.0);
+    EXPECT_EQ(merges[2].size, 4);
+}
+
+TEST(ClusterByDistance, WeighsClustersByTheirSizes) {
+    // {0, 1} joins 2 at the mean of 4 and 6; then 3 at the mean of three distances, not of two.
+    Eigen::MatrixXd d(4, 4);
+    d << 0, 1, 4, 9,  //
+        1, 0, 6, 9,   //
+        4, 6, 0, 12,  //
+        9, 9, 12, 0;
+    const std::vector<Merge> merges = cluster_by_distance(d);
+    EXPECT_DOUBLE_EQ(merges[1].height, 5);
+    EXPECT_DOUBLE_EQ(merges[2].height, 10);
+}
+
+TEST(ClusterByDistance, RefusesWhatIsNoMatrixOfDistances) {
+    EXPECT_THROW(cluster_by_distance(Eigen::MatrixXd::Zero(2, 3)), Error);
+    Eigen::MatrixXd d = Eigen::MatrixXd::Zero(2, 2);
+    d(0, 1) = 1;
+    EXPECT_THROW(cluster_by_distance(d), Error);
+}
+
+}  // namespace
+}  // namespace beltrami
