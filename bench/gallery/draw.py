@@ -1,12 +1,16 @@
 #!/usr/bin/env python3
 """Draws the gallery's pictures: draw.py DATA_FOLDER PICTURE_FOLDER. DATA_FOLDER has pictures.json and PLY files.
 
-A picture is a row of panels of one height: "map" (a planar mesh coloured by |mu|), "grid" (the image of a chessboard of
-the source), "histogram", "curves" and "surface" (a mesh in space with a chessboard of the map's plane, or coloured by
-|mu|)."""
+A picture is a row of panels of one height: "map" (a planar mesh coloured by |mu|), "grid" (the image of a chessboard or
+of small circles of the source, or these on the source itself), "faces" (the image with the edges of its faces),
+"histogram", "curves", "surface" (a mesh in space with a chessboard or circles of the map's plane, with its edges, or
+coloured by |mu|). Or it is one "svg", an SVG file as chromium shows it."""
 import io
 import json
+import re
+import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 import matplotlib
@@ -48,7 +52,7 @@ def read_ply(path):
             vertices = np.frombuffer(data, layout, count, end)
             end += layout.itemsize * count
         elif name == "face":
-            triangles, mu = [], []
+            triangles, mu, faces = [], [], []
             before = [p for p in properties]
             for _ in range(count):
                 for p in before:
@@ -62,13 +66,14 @@ def read_ply(path):
                         end += np.dtype(TYPES[p[0]]).itemsize
                         if p[1] == "abs_mu":
                             size = float(value)
+                faces.append(face)
                 for i in range(1, len(face) - 1):
                     triangles.append((face[0], face[i], face[i + 1]))
                     mu.append(size)
     fields = vertices.dtype.names
     space = np.stack([vertices["x"], vertices["y"], vertices["z"] if "z" in fields else 0 * vertices["x"]], 1)
     return {"space": space, "plane": np.stack([vertices["u"], vertices["v"]], 1),
-            "triangles": np.array(triangles), "mu": np.array(mu)}
+            "triangles": np.array(triangles), "mu": np.array(mu), "faces": faces}
 
 
 def colours_of(mu, least, largest):
@@ -107,11 +112,50 @@ def frame(axes, points):
     axes.set_axis_off()
 
 
+def in_circles(places, spacing):
+    """Whether places of the plane lie in circles around the points of a triangular lattice."""
+    inside = np.zeros(len(places), bool)
+    cell = spacing * np.array([1, np.sqrt(3)])
+    for offset in (0, 0.5):
+        away = (places / cell - offset) - np.round(places / cell - offset)
+        inside |= np.hypot(*(away * cell).T) < 0.36 * spacing
+    return inside
+
+
+def draw_segment(picture, seen, source, a, b, colour):
+    """A straight line of the source where it is seen: as wide everywhere on the source."""
+    along = (b - a) / np.linalg.norm(b - a)
+    t = np.clip((source - a) @ along, 0, np.linalg.norm(b - a))
+    near = np.linalg.norm(source - a - t[:, None] * along, axis=1) < 0.012
+    rows, columns = np.nonzero(seen)
+    picture[rows[near], columns[near]] = colour
+
+
+def draw_faces(axes, panel, load):
+    data = load(panel["data"])
+    axes.add_collection(PolyCollection([data["plane"][face] for face in data["faces"]], facecolors=[CHECKER[1]],
+                                       edgecolors=[(0.15, 0.15, 0.15)], linewidths=0.3))
+    frame(axes, data["plane"])
+
+
+def read_svg(path):
+    """The picture of an SVG, at twice its size."""
+    width, height = (float(x) for x in re.search(r'width="([0-9.]+)"[^>]*height="([0-9.]+)"', path.read_text()).groups())
+    with tempfile.TemporaryDirectory() as folder:
+        picture = Path(folder) / "picture.png"
+        subprocess.run(["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars",
+                        "--force-device-scale-factor=2", f"--window-size={int(width)},{int(height)}",
+                        f"--user-data-dir={folder}/profile", f"--screenshot={picture}", path.resolve().as_uri()],
+                       check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=120)
+        return Image.open(picture).convert("RGB")
+
+
 def draw_grid(axes, panel, load):
     data = load(panel["data"])
     pixels = 2 * int(PANEL * DPI * max(1, shape(panel, load)))
-    low, size = data["plane"].min(0), np.ptp(data["plane"], axis=0).max()
-    screen = (data["plane"] - low) / size * (pixels - 20) + 10
+    points = data["space"][:, :2] if panel["domain"] == "source" else data["plane"]
+    low, size = points.min(0), np.ptp(points, axis=0).max()
+    screen = (points - low) / size * (pixels - 20) + 10
     # Flipped faces lie in front.
     depth = np.zeros(len(screen))
     depth[data["triangles"][data["mu"] >= 1]] = 1
@@ -119,7 +163,9 @@ def draw_grid(axes, panel, load):
     seen = face >= 0
     flat = data["space"][:, :2]
     source = np.einsum("pi,pij->pj", bary[seen], flat[data["triangles"][face[seen]]])
-    if panel["pattern"] == "square":
+    if panel["pattern"] == "circles":
+        parity = in_circles(source, np.ptp(flat, axis=0).max() / panel["count"])
+    elif panel["pattern"] == "square":
         square = np.ptp(flat, axis=0).max() / panel["count"]
         parity = np.floor((source - flat.min(0)) / square + OFFSET).sum(1)
     else:
@@ -131,19 +177,21 @@ def draw_grid(axes, panel, load):
     colours[data["mu"][face[seen]] >= 1] = FLIPPED[:3]
     picture = np.ones((pixels, pixels, 3))
     picture[seen] = colours
+    for i, (a, b) in enumerate(panel["segments"]):
+        draw_segment(picture, seen, source, np.array(a), np.array(b), matplotlib.colors.to_rgb(("C3", "C1", "C2")[i % 3]))
     for chain in panel["highlights"]:
         draw_chain(picture, screen[chain])
     show(axes, picture, seen)
 
 
-def draw_chain(picture, points, visible=lambda x, y, i, t: True):
-    """A black line, three pixels wide, through the points."""
+def draw_chain(picture, points, visible=lambda x, y, i, t: True, thin=False):
+    """A black line, three pixels wide or two, through the points."""
     for i, (a, b) in enumerate(zip(points, points[1:])):
         steps = int(np.abs(a - b).max()) + 1
         for t in np.linspace(0, 1, 2 * steps):
             x, y = np.round((1 - t) * a + t * b).astype(int)
             if visible(x, y, i, t):
-                picture[max(y - 1, 0):y + 2, max(x - 1, 0):x + 2] = (0.1, 0.1, 0.1)
+                picture[max(y - (not thin), 0):y + 2, max(x - (not thin), 0):x + 2] = (0.1, 0.1, 0.1)
 
 
 def show(axes, picture, seen):
@@ -177,7 +225,8 @@ def draw_histogram(axes, panel, load):
     axes.set_xlabel("|μ|", fontsize=8)
     axes.set_ylabel("% of the area", fontsize=8)
     axes.tick_params(labelsize=7)
-    axes.legend(fontsize=7, frameon=False)
+    if any(entry["label"] for entry in panel["series"]):
+        axes.legend(fontsize=7, frameon=False)
 
 
 def draw_curves(axes, panel, load):
@@ -194,7 +243,10 @@ def draw_curves(axes, panel, load):
         axes.yaxis.set_major_formatter(ticker.FormatStrFormatter("%g"))
         axes.yaxis.set_minor_formatter(ticker.NullFormatter())
     if any(entry["label"] for entry in panel["series"]):
-        axes.legend(fontsize=7, frameon=False, loc="upper left", bbox_to_anchor=(1.0, 1.0))
+        if panel["logarithmic"]:
+            axes.legend(fontsize=7, frameon=False, loc="upper left", bbox_to_anchor=(1.0, 1.0))
+        else:
+            axes.legend(fontsize=7, frameon=False)
 
 
 def rasterise(screen, depth, triangles, pixels):
@@ -244,10 +296,13 @@ def draw_surface(axes, panel, load):
     seen = face >= 0
     picture = np.ones((pixels, pixels, 3))
     corners = triangles[face[seen]]
-    if panel["colour"] == "checker":
+    if panel["colour"] == "faces":
+        colours = np.broadcast_to(CHECKER[1], (len(corners), 3))
+    elif panel["colour"] in ("checker", "circles"):
         place = np.einsum("pi,pij->pj", bary[seen], data["plane"][corners])
         square = np.ptp(data["plane"], axis=0).max() / panel["squares"]
-        parity = np.floor(place / square + OFFSET).astype(int).sum(1) % 2
+        parity = (in_circles(place, square) if panel["colour"] == "circles"
+                  else np.floor(place / square + OFFSET).astype(int).sum(1) % 2)
         colours = np.where(parity[:, None] == 1, CHECKER[0], CHECKER[1])
         colours[data["mu"][face[seen]] >= 1] = FLIPPED[:3]
     else:
@@ -261,10 +316,14 @@ def draw_surface(axes, panel, load):
     front = normals @ towards > 0
     shade = np.where(front, 0.55 + 0.45 * np.clip(facing, 0, 1), 0.45)
     picture[seen] = colours * shade[face[seen], None]
-    for chain in panel["highlights"]:
+    edges = []
+    if panel["colour"] == "faces":
+        edges = sorted({(min(a, b), max(a, b)) for face in data["faces"] for a, b in zip(face, np.roll(face, -1))})
+    for chain in panel["highlights"] + [list(edge) for edge in edges]:
         d = depth[chain]
         draw_chain(picture, screen[chain],
-                   lambda x, y, i, t: nearest[y, x] <= (1 - t) * d[i] + t * d[i + 1] + 0.02 * size)
+                   lambda x, y, i, t: nearest[y, x] <= (1 - t) * d[i] + t * d[i + 1] + 0.02 * size,
+                   panel["colour"] == "faces")
     show(axes, picture, seen)
 
 
@@ -291,17 +350,20 @@ def with_palette(image, palette):
     return result
 
 
-def save(figure, path, flat):
-    """A palette PNG of at most MOST_BYTES: fewer colours (where they are not fixed), then fewer pixels, until it fits."""
+def image_of(figure):
     buffer = io.BytesIO()
     figure.savefig(buffer, format="png", dpi=DPI)
     plt.close(figure)
-    full = Image.open(buffer).convert("RGB")
+    return Image.open(buffer).convert("RGB")
+
+
+def save(full, path, flat):
+    """A palette PNG of at most MOST_BYTES: fewer colours (where they are not fixed), then fewer pixels, until it fits."""
     left, top, right, bottom = ImageChops.difference(full, Image.new("RGB", full.size, "white")).getbbox()
     full = full.crop((max(left - 6, 0), max(top - 6, 0), min(right + 6, full.width), min(bottom + 6, full.height)))
     for scale in (1, 0.85, 0.7, 0.55, 0.4):
         image = full if scale == 1 else full.resize([int(scale * s) for s in full.size], Image.LANCZOS)
-        for count in (256,) if flat else (256, 128):
+        for count in (256,) if flat else (256, 128, 64, 32):
             packed = io.BytesIO()
             if flat:
                 reduced = with_palette(image, fixed_palette())
@@ -323,7 +385,7 @@ def shape(panel, load):
         right, up, _ = view(panel)
         points = np.stack([data["space"] @ right, data["space"] @ up], 1)
     else:
-        source = panel["kind"] == "map" and panel["domain"] == "source"
+        source = panel.get("domain") == "source"
         points = data["space"][:, :2] if source else data["plane"]
     width, height = np.ptp(points, axis=0)
     return float(np.clip(width / height, 0.4, 2.5))
@@ -332,7 +394,8 @@ def shape(panel, load):
 def main():
     source, target = Path(sys.argv[1]), Path(sys.argv[2])
     target.mkdir(parents=True, exist_ok=True)
-    draw = {"map": draw_map, "grid": draw_grid, "histogram": draw_histogram, "curves": draw_curves, "surface": draw_surface}
+    draw = {"map": draw_map, "grid": draw_grid, "histogram": draw_histogram, "curves": draw_curves, "surface": draw_surface,
+            "faces": draw_faces}
     for picture in json.loads((source / "pictures.json").read_text()):
         panels = picture["panels"]
         if not panels:
@@ -344,6 +407,10 @@ def main():
                 cache[name] = read_ply(source / name)
             return cache[name]
 
+        if [panel["kind"] for panel in panels] == ["svg"]:
+            save(read_svg(source / panels[0]["data"]), target / (picture["name"] + ".png"), False)
+            print(picture["name"])
+            continue
         # One row; each panel as wide as its content asks, all of one height.
         shapes = [shape(panel, load) for panel in panels]
         height = min(PANEL, WIDTH / sum(shapes))
@@ -361,7 +428,7 @@ def main():
             colours = matplotlib.cm.ScalarMappable(matplotlib.colors.Normalize(*scale), "viridis")
             figure.colorbar(colours, cax=grid.flat[bar]).ax.tick_params(labelsize=7)
             grid.flat[bar].set_box_aspect(16)
-        save(figure, target / (picture["name"] + ".png"), all(p["kind"] != "surface" for p in panels))
+        save(image_of(figure), target / (picture["name"] + ".png"), all(p["kind"] != "surface" for p in panels))
         print(picture["name"])
 
 

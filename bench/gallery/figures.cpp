@@ -2,14 +2,83 @@
 
 namespace beltrami::gallery {
 
-const std::vector<Entry>& figures() {
-    static const std::vector<Entry> list{
-        {"figure_02", figure_02}, {"figure_03", figure_03}, {"figure_07", figure_07}, {"figure_09", figure_09},
-        {"figure_10", figure_10}, {"figure_11", figure_11}, {"figure_12", figure_12}, {"figure_13", figure_13},
-        {"figure_14", figure_14}, {"figure_15", figure_15}, {"figure_16", figure_16}, {"figure_17", figure_17},
-        {"figure_18", figure_18}, {"figure_19", figure_19}, {"corners", corners},     {"scan", scan},
-        {"holes_27", holes_27},
-    };
+namespace {
+
+const Page& prescribed() {
+    static const Page page{
+        "gallery.md",
+        "# Gallery\n\n"
+        "Figures of Weber, Myles, Zorin, *Computing extremal quasiconformal maps*, 2012, made again with beltrami by\n"
+        "`./run gallery`. Shapes that the paper does not give are made here (`bench/support/problems.h`), so its "
+        "numbers\n"
+        "are for orientation. Colours show |μ|; flipped faces are red. Tables: the estimate of k, the lower bound on K "
+        "of\n"
+        "the extremal map and the estimate of K ([certificate](certificate.md), the bounds of quadratic maps), and "
+        "the\n"
+        "statistics of |μ| over the faces, weighted by area. Iterations: linear solves, Newton steps for the methods "
+        "that\n"
+        "are not linear; seconds on a busy machine, bounds included. A chessboard is that of the source on the image "
+        "of a\n"
+        "planar source, that of the plane on a surface in space. In histograms the last bin holds all that lies "
+        "beyond.\n"
+        "Boundaries that slide have a [page of their own](gallery-sliding.md).\n\n",
+        {
+            {"figure_02", figure_02},
+            {"figure_03", figure_03},
+            {"figure_07", figure_07},
+            {"figure_09", figure_09},
+            {"figure_10", figure_10},
+            {"figure_11", figure_11},
+            {"figure_12", figure_12},
+            {"figure_13", figure_13},
+            {"figure_14", figure_14},
+            {"figure_15", figure_15},
+            {"figure_16", figure_16},
+            {"figure_17", figure_17},
+            {"figure_18", figure_18},
+            {"figure_19", figure_19},
+            {"corners", corners},
+            {"scan", scan},
+            {"holes_27", holes_27},
+        }};
+    return page;
+}
+
+const Page& sliding() {
+    static const Page page{
+        "gallery-sliding.md",
+        "# Gallery: boundaries that slide\n\n"
+        "Examples of Ng, Gu, Lui, *Computing extremal Teichmüller map of multiply-connected domains via Beltrami\n"
+        "holomorphic flow*, 2014, made again with beltrami by `./run gallery`. Every boundary loop goes onto its "
+        "curve,\n"
+        "its points slide. Domains are the paper's where it gives them, else they are made here\n"
+        "(`bench/gallery/sliding_*.cpp`). Small circles of the source go to small ellipses, all of one shape where the "
+        "map\n"
+        "is extremal; colours show |μ|, flipped faces are red. Tables: the estimate of k; the bracket of k of the "
+        "extremal\n"
+        "map by the integrals of Reich and Strebel ([certificate](certificate.md)), exact up to the errors of the "
+        "mesh;\n"
+        "the statistics of |μ| over the faces, weighted by area; flips, linear solves, and seconds on a busy machine,\n"
+        "everything included. Meshes: edge length h, 0.4 h at the holes, which have at least 30 vertices each.\n\n",
+        {
+            {"sliding_values", sliding_values},
+            {"sliding_04", sliding_04},
+            {"sliding_05", sliding_05},
+            {"sliding_06", sliding_06},
+            {"sliding_08", sliding_08},
+            {"sliding_09", sliding_09},
+            {"sliding_12", sliding_12},
+            {"sliding_13", sliding_13},
+            {"sliding_classes", sliding_classes},
+            {"sliding_distance", sliding_distance},
+        }};
+    return page;
+}
+
+}  // namespace
+
+const std::vector<Page>& pages() {
+    static const std::vector<Page> list{prescribed(), sliding()};
     return list;
 }
 

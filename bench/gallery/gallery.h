@@ -29,7 +29,7 @@ struct Picture {
     std::vector<nlohmann::json> panels;
 };
 
-/// One section of docs/gallery.md. Without a title: not made, the section stays as it is.
+/// One section of a page. Without a title: not made, the section stays as it is.
 struct Figure {
     std::string title;      ///< "Figures 7 and 8: …"
     std::string statement;  ///< what the paper states there
@@ -87,8 +87,13 @@ nlohmann::json map_panel(const std::string& data, const std::string& title, doub
 /// The image of a planar mesh with a chessboard of the source. pattern "polar": sectors and rings of their shape;
 /// "disk": sectors and rings of equal width; "square": so many squares to the larger side of the source.
 /// @param lines chains of vertices to draw
+/// "circles": small circles, so many to the larger side.
 nlohmann::json grid_panel(const std::string& data, const std::string& title, const std::string& pattern = "polar",
                           int count = 24, const std::vector<std::vector<int>>& lines = {});
+/// Small circles of the source, so many to its larger side, on the source or on the image.
+/// @param segments straight lines of the source to draw, each with its own colour
+nlohmann::json circles_panel(const std::string& data, const std::string& title, const std::string& domain, int count,
+                             const std::vector<std::pair<Complex, Complex>>& segments = {});
 /// Histograms of |μ|, one line each; a vertical line at k.
 nlohmann::json histogram_panel(const std::vector<std::pair<std::string, std::string>>& labels_and_data,
                                const std::string& title, std::optional<double> k = {}, double max_mu = 1);
@@ -99,10 +104,16 @@ struct Curve {
 };
 nlohmann::json curves_panel(const std::vector<Curve>& curves, const std::string& title, const std::string& x_label,
                             const std::string& y_label, bool logarithmic = true);
-/// The source in space. colour "checker" (squares of the map's plane, so many to the larger side of its image) or "mu".
+/// The source in space. colour "checker" (squares of the map's plane, so many to the larger side of its image),
+/// "circles" (small circles of that plane), "faces" (the edges of the mesh) or "mu".
 nlohmann::json surface_panel(const std::string& data, const std::string& title, const std::string& colour,
                              double azimuth, double elevation, int squares = 20, double max_mu = 1,
                              const std::vector<std::vector<int>>& highlights = {});
+
+/// The image of a map with the edges of its faces.
+nlohmann::json faces_panel(const std::string& data, const std::string& title);
+/// An SVG file of the data folder, a picture of its own.
+nlohmann::json svg_panel(const std::string& file);
 
 /// Numbers for tables.
 std::string number(double value, int digits = 4);
@@ -130,8 +141,14 @@ struct Entry {
     std::string name;
     Figure (*make)(Output&);
 };
-/// All figures in the order of the page.
-const std::vector<Entry>& figures();
+/// A page of the documentation and its figures in their order.
+struct Page {
+    std::string file;          ///< in the folder of the documentation
+    std::string introduction;  ///< what comes before the first figure, Markdown
+    std::vector<Entry> figures;
+};
+/// All pages; names of figures are unique among them.
+const std::vector<Page>& pages();
 
 Figure figure_02(Output& output);  ///< homotopy classes
 Figure figure_03(Output& output);  ///< a map that is extremal and not of Teichmüller type
@@ -152,5 +169,17 @@ Figure figure_19(Output& output);  ///< a ball with twelve holes
 Figure corners(Output& output);   ///< corners of the source and of the boundary values
 Figure scan(Output& output);      ///< mcqc3d_planar_src.obj with its pins, if the folder BELTRAMI_MESHES has it
 Figure holes_27(Output& output);  ///< 27 holes
+
+// Boundaries that slide: beside Ng, Gu & Lui.
+Figure sliding_values(Output& output);    ///< known values of k
+Figure sliding_04(Output& output);        ///< their Example 4
+Figure sliding_05(Output& output);        ///< orders of convergence
+Figure sliding_06(Output& output);        ///< five and nine holes (Examples 6 and 7)
+Figure sliding_08(Output& output);        ///< arbitrary shapes and sizes (Examples 8, 10 and 11)
+Figure sliding_09(Output& output);        ///< seconds (Example 9)
+Figure sliding_12(Output& output);        ///< scans (Example 12), if the folder BELTRAMI_MESHES has them
+Figure sliding_13(Output& output);        ///< grids (Example 13), likewise
+Figure sliding_classes(Output& output);   ///< holes that change places; rotated starts; symmetric domains
+Figure sliding_distance(Output& output);  ///< distances of shapes and their clusters
 
 }  // namespace beltrami::gallery

@@ -1,6 +1,6 @@
-// Solves the gallery's figures, writes their data and their sections of the page.
+// Solves the gallery's figures, writes their data and their sections of the pages.
 //
-//     gallery DATA_FOLDER PAGE [FIGURE...]        default: all figures
+//     gallery DATA_FOLDER DOCUMENTATION_FOLDER [FIGURE...]        default: all figures
 //
 // Sections of figures that are not named stay as they are. draw.py draws the pictures from DATA_FOLDER.
 #include <fmt/format.h>
@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <fstream>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include "gallery/gallery.h"
@@ -18,29 +19,18 @@ namespace {
 using namespace beltrami;
 using namespace beltrami::gallery;
 
-constexpr const char* introduction =
-    "# Gallery\n\n"
-    "Figures of Weber, Myles, Zorin, *Computing extremal quasiconformal maps*, 2012, made again with beltrami by\n"
-    "`./run gallery`. Shapes that the paper does not give are made here (`bench/support/problems.h`), so its numbers\n"
-    "are for orientation. Colours show |μ|; flipped faces are red. Tables: the estimate of k, the lower bound on K of\n"
-    "the extremal map and the estimate of K ([certificate](certificate.md), the bounds of quadratic maps), and the\n"
-    "statistics of |μ| over the faces, weighted by area. Iterations: linear solves, Newton steps for the methods that\n"
-    "are not linear; seconds on a busy machine, bounds included. A chessboard is that of the source on the image of a\n"
-    "planar source, that of the plane on a surface in space. In histograms the last bin holds all that lies "
-    "beyond.\n\n";
-
 std::string marker(const std::string& name) {
     return "<!-- " + name + " -->\n";
 }
 
 /// The sections of a page by name.
-std::map<std::string, std::string> sections_of(const std::string& page) {
+std::map<std::string, std::string> sections_of(const Page& page, const std::string& text) {
     std::map<std::string, std::string> result;
-    for (const Entry& entry : figures()) {
-        const std::size_t at = page.find(marker(entry.name));
+    for (const Entry& entry : page.figures) {
+        const std::size_t at = text.find(marker(entry.name));
         if (at == std::string::npos) continue;
-        const std::size_t end = page.find("<!-- ", at + 1);
-        result[entry.name] = page.substr(at, end == std::string::npos ? end : end - at);
+        const std::size_t end = text.find("<!-- ", at + 1);
+        result[entry.name] = text.substr(at, end == std::string::npos ? end : end - at);
     }
     return result;
 }
@@ -66,44 +56,53 @@ std::string section(const std::string& name, const Figure& figure) {
     return text;
 }
 
+/// Makes the wanted figures of a page; their pictures are added to @p pictures.
+void make(const Page& page, const std::filesystem::path& file, const std::vector<std::string>& wanted, Output& output,
+          nlohmann::json& pictures) {
+    std::stringstream old;
+    old << std::ifstream(file).rdbuf();
+    auto sections = sections_of(page, old.str());
+    for (const Entry& entry : page.figures) {
+        if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), entry.name) == wanted.end()) continue;
+        fmt::print("{}\n", entry.name);
+        std::fflush(stdout);
+        const Figure figure = entry.make(output);
+        if (figure.title.empty()) continue;
+        sections[entry.name] = section(entry.name, figure);
+        for (const Picture& picture : figure.pictures)
+            if (!picture.panels.empty()) pictures.push_back({{"name", picture.name}, {"panels", picture.panels}});
+    }
+    std::ofstream text(file);
+    text << page.introduction;
+    for (const Entry& entry : page.figures)
+        if (sections.contains(entry.name)) text << sections[entry.name];
+    text.close();
+    if (!text) throw Error(Cause::unwritable, "cannot write " + file.string());
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     if (argc < 3) {
-        fmt::print(stderr, "gallery DATA_FOLDER PAGE [FIGURE...]\n");
+        fmt::print(stderr, "gallery DATA_FOLDER DOCUMENTATION_FOLDER [FIGURE...]\n");
         return 2;
     }
     const std::vector<std::string> wanted(argv + 3, argv + argc);
+    std::string names;
+    std::set<std::string> known;
+    for (const Page& page : pages())
+        for (const Entry& entry : page.figures) names += " " + entry.name, known.insert(entry.name);
     for (const std::string& name : wanted)
-        if (std::none_of(figures().begin(), figures().end(), [&](const Entry& e) { return e.name == name; })) {
-            std::string names;
-            for (const Entry& entry : figures()) names += " " + entry.name;
+        if (!known.contains(name)) {
             fmt::print(stderr, "there is no figure {}; there are:{}\n", name, names);
             return 2;
         }
     try {
-        std::stringstream old;
-        old << std::ifstream(argv[2]).rdbuf();
-        auto sections = sections_of(old.str());
         Output output(argv[1]);
         nlohmann::json pictures = nlohmann::json::array();
-        for (const Entry& entry : figures()) {
-            if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), entry.name) == wanted.end()) continue;
-            fmt::print("{}\n", entry.name);
-            std::fflush(stdout);
-            const Figure figure = entry.make(output);
-            if (figure.title.empty()) continue;
-            sections[entry.name] = section(entry.name, figure);
-            for (const Picture& picture : figure.pictures)
-                if (!picture.panels.empty()) pictures.push_back({{"name", picture.name}, {"panels", picture.panels}});
-        }
+        for (const Page& page : pages())
+            make(page, std::filesystem::path(argv[2]) / page.file, wanted, output, pictures);
         std::ofstream(output.folder() / "pictures.json") << pictures.dump(1) << "\n";
-        std::ofstream page(argv[2]);
-        page << introduction;
-        for (const Entry& entry : figures())
-            if (sections.contains(entry.name)) page << sections[entry.name];
-        page.close();
-        if (!page) throw Error(Cause::unwritable, std::string("cannot write ") + argv[2]);
     } catch (const std::exception& error) {
         fmt::print(stderr, "{}\n", error.what());
         return 1;

@@ -35,8 +35,16 @@ json map_panel(const std::string& data, const std::string& title, double max_mu,
 
 json grid_panel(const std::string& data, const std::string& title, const std::string& pattern, int count,
                 const std::vector<std::vector<int>>& lines) {
-    return {{"kind", "grid"},     {"data", data},   {"title", title},
-            {"pattern", pattern}, {"count", count}, {"highlights", lines}};
+    return {{"kind", "grid"}, {"data", data},        {"title", title},    {"pattern", pattern},
+            {"count", count}, {"highlights", lines}, {"domain", "image"}, {"segments", json::array()}};
+}
+
+json circles_panel(const std::string& data, const std::string& title, const std::string& domain, int count,
+                   const std::vector<std::pair<Complex, Complex>>& segments) {
+    json panel = grid_panel(data, title, "circles", count);
+    panel["domain"] = domain;
+    for (const auto& [a, b] : segments) panel["segments"].push_back({{a.real(), a.imag()}, {b.real(), b.imag()}});
+    return panel;
 }
 
 json histogram_panel(const std::vector<std::pair<std::string, std::string>>& labels_and_data, const std::string& title,
@@ -61,6 +69,14 @@ json surface_panel(const std::string& data, const std::string& title, const std:
     return {{"kind", "surface"},  {"data", data},       {"title", title},
             {"colour", colour},   {"azimuth", azimuth}, {"elevation", elevation},
             {"squares", squares}, {"max", max_mu},      {"highlights", highlights}};
+}
+
+json faces_panel(const std::string& data, const std::string& title) {
+    return {{"kind", "faces"}, {"data", data}, {"title", title}};
+}
+
+json svg_panel(const std::string& file) {
+    return {{"kind", "svg"}, {"data", file}, {"title", ""}};
 }
 
 std::string number(double value, int digits) {

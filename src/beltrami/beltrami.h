@@ -4,6 +4,7 @@
 
 #include <beltrami/applications/grid_on_surface.h>
 #include <beltrami/baselines/baseline.h>
+#include <beltrami/baselines/t_map_scheme.h>
 #include <beltrami/conformal/boundary_values.h>
 #include <beltrami/conformal/chart_places.h>
 #include <beltrami/conformal/circle_domain_chart.h>
@@ -13,6 +14,7 @@
 #include <beltrami/conformal/flatten.h>
 #include <beltrami/conformal/round_disk.h>
 #include <beltrami/conformal/target_mesh.h>
+#include <beltrami/flow/beltrami_flow.h>
 #include <beltrami/generate/double_torus.h>
 #include <beltrami/generate/grids.h>
 #include <beltrami/generate/planar_domains.h>

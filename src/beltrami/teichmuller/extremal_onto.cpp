@@ -9,18 +9,6 @@
 
 namespace beltrami {
 
-namespace {
-
-/// Mean edge of the source in the unit disk, carried over to a target of some size.
-double edge_length_for(const Surface& source, const TargetDomain& target, const OntoOptions& options) {
-    if (options.target_edge_length > 0) return options.target_edge_length;
-    double area = target.outer.area();
-    for (const TargetCurve& hole : target.holes) area -= hole.area();
-    return std::sqrt(4 / std::sqrt(3.0) * area / source.mesh.face_count());
-}
-
-}  // namespace
-
 const char* to_string(OntoOptions::Space space) {
     switch (space) {
         case OntoOptions::Space::automatic:
@@ -88,7 +76,7 @@ ExtremalMapOnto extremal_map(const Surface& source, const TargetDomain& target, 
         throw Error(Cause::bad_option, "marks by vertices of the target are given for a target that has none",
                     "give places on its curves instead");
     OntoProblem problem(source, options);
-    return problem.solve(*target_model(target, edge_length_for(source, target, options)));
+    return problem.solve(*target_model(target, edge_length_for(source, target, options.target_edge_length)));
 }
 
 ExtremalMapOntoSurface extremal_map(const Surface& source, const Surface& target, const OntoOptions& options,

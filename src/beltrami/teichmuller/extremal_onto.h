@@ -14,7 +14,9 @@
 namespace beltrami {
 
 struct OntoOptions {
-    double tolerance = 1e-8;  ///< stop when |Δk| and the change of the direction of φ are below this
+    /// Stop when the change of the direction of φ is below this, and |Δk| below a hundredth of it. The error of the
+    /// mesh is far larger.
+    double tolerance = 1e-6;
     int max_iterations = 60;  ///< linear solves
     int anderson_window = 5;  ///< 0: plain iteration
     int outer_loop = 0;       ///< the boundary loop of the source that goes to the target's outer curve

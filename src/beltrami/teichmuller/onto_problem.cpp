@@ -10,6 +10,7 @@
 #include <beltrami/maps/fold_free.h>
 #include <beltrami/mesh/error.h>
 #include <beltrami/teichmuller/coarse_sliding_start.h>
+#include <beltrami/teichmuller/sliding_loops.h>
 
 namespace beltrami {
 
@@ -17,24 +18,15 @@ namespace {
 
 /// How many solves the system is ordered for.
 constexpr int kExpectedFactorizations = 6;
+/// k, of second order in the direction of φ, settles to this part of the tolerance.
+constexpr double kToleranceOfK = 0.01;
 /// Newton steps of the boundary after the iteration, until no vertex moves by more than this part of its curve.
 constexpr int kLastSteps = 10;
 constexpr double kSettled = 1e-9;
 /// Newton steps of the boundary where there are no differentials: the map is conformal.
 constexpr int kConformalSteps = 100;
-/// A loop's image encloses at least this part of what its curve does.
-constexpr double kLeastArea = 0.5;
 /// Points of the c-step on large meshes, and what sharper differences of φ ask for.
 constexpr int kClusters = 1500;
-
-double enclosed_area(const std::vector<int>& loop, const Eigen::VectorXcd& map) {
-    double twice = 0;
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-        const Complex a = map[loop[i]], b = map[loop[(i + 1) % loop.size()]];
-        twice += std::imag(std::conj(a) * b);
-    }
-    return 0.5 * twice;
-}
 
 /// Boundary vertices that keep their places.
 std::vector<Freedom> held_boundary(const Surface& source) {
@@ -163,7 +155,8 @@ void OntoProblem::iterate(OntoDifferentials phi, SlidingBoundary& boundary, Slid
                           ExtremalMapOnto& result) const {
     CoefficientStep coefficient_step(source_, phi.chart, {}, phase_of(domain_, source_), kClusters);
     HamiltonIteration::Options how;
-    how.tolerance = how.k_tolerance = options_.tolerance;
+    how.tolerance = options_.tolerance;
+    how.k_tolerance = kToleranceOfK * options_.tolerance;
     how.max_iterations = options_.max_iterations;
     how.anderson_window = options_.anderson_window;
     how.grow_first = how.grow_last = false;
@@ -220,17 +213,8 @@ void OntoProblem::settle_conformal(SlidingMapStep& step, ExtremalMapOnto& result
 
 void OntoProblem::record_loops(const std::vector<int>& curves, const SlidingBoundary& boundary,
                                ExtremalMapOnto& result) const {
-    for (const SlidingLoop& sliding : boundary.loops()) {
-        const auto& vertices = source_.topology.boundary_loops[sliding.loop];
-        const double area = enclosed_area(vertices, result.map);
-        const double whole = sliding.curve.counter_clockwise() ? sliding.curve.area() : -sliding.curve.area();
-        result.loops.push_back({sliding.loop, curves[sliding.loop], sliding.parameters, area / whole});
-        if (!(result.loops.back().area_ratio > kLeastArea))
-            throw Error(Cause::not_solved,
-                        "boundary loop " + std::to_string(sliding.loop) + " has collapsed: its image encloses " +
-                            std::to_string(100 * result.loops.back().area_ratio) + " % of what its curve does",
-                        "give the loop more vertices, or lead the start there by waypoints");
-    }
+    result.loops = loops_onto(source_, boundary, curves, result.map);
+    require_not_collapsed(result.loops);
     for (const Mark& mark : options_.marks) {
         for (const SlidingLoop& sliding : boundary.loops())
             if (curves[sliding.loop] == mark.curve)

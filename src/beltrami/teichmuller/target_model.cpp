@@ -1,5 +1,7 @@
 #include <beltrami/teichmuller/target_model.h>
 
+#include <cmath>
+
 #include <beltrami/mesh/planar.h>
 
 namespace beltrami {
@@ -99,6 +101,10 @@ std::unique_ptr<TargetModel> target_model(const TargetDomain& target, double edg
     for (const TargetCurve& hole : target.holes) round = round && hole.kind() == TargetCurve::Kind::circle;
     if (round) return std::make_unique<RoundTarget>(target);
     return std::make_unique<MeshedTarget>(target, edge_length);
+}
+
+double edge_length_for(const Surface& source, const TargetDomain& target, double wanted) {
+    return wanted > 0 ? wanted : std::sqrt(4 / std::sqrt(3.0) * target.area() / source.mesh.face_count());
 }
 
 TargetDomain circle_target(const CircleDomainChart& chart) {

@@ -45,6 +45,9 @@ class TargetModel {
 /// @throw Error not_solved, bad_option
 std::unique_ptr<TargetModel> target_model(const TargetDomain& target, double edge_length);
 
+/// The edge length with which a mesh of the target has as many faces as the source, or @p wanted if that is not 0.
+double edge_length_for(const Surface& source, const TargetDomain& target, double wanted = 0);
+
 /// The circle domain of a chart as a target of its own.
 TargetDomain circle_target(const CircleDomainChart& chart);
 

@@ -1,0 +1,127 @@
+#include "gallery/sliding.h"
+
+#include <fmt/format.h>
+
+#include <beltrami/conformal/target_mesh.h>
+#include <beltrami/mesh/error.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <numbers>
+
+namespace beltrami::gallery {
+
+Mesh disk_with_holes(const std::vector<Hole>& holes, double h, int least_vertices) {
+    std::vector<Circle> circles;
+    for (const auto& [x, y, r] : holes) circles.push_back({{x, y}, r});
+    DomainOptions options;
+    options.edge_length = h;
+    options.hole_edge_length = 0.4 * h;
+    options.least_hole_edges = least_vertices;
+    return circle_domain({Eigen::Vector2d::Zero(), 1}, circles, options);
+}
+
+TargetDomain circles_target(const std::vector<Hole>& holes) {
+    std::vector<TargetCurve> curves;
+    for (const auto& [x, y, r] : holes) curves.push_back(TargetCurve::circle({x, y}, r));
+    return target_domain(TargetCurve::circle(0, 1), std::move(curves));
+}
+
+Mesh domain_mesh(const TargetDomain& domain, double h) {
+    TargetMeshOptions options;
+    options.edge_length = h;
+    options.hole_edge_length = 0.4 * h;
+    return target_mesh(domain, options).mesh;
+}
+
+TargetCurve polar_spline(Complex centre, const std::function<double(double)>& radius, int points) {
+    std::vector<Complex> places;
+    for (int i = 0; i < points; ++i) {
+        const double t = 2 * std::numbers::pi * i / points;
+        places.push_back(centre + std::polar(radius(t), t));
+    }
+    return TargetCurve::spline(places);
+}
+
+OntoOptions numbered(std::size_t holes) {
+    OntoOptions options;
+    for (int l = 0; l <= static_cast<int>(holes); ++l) options.loops.push_back({l, l});
+    return options;
+}
+
+SolvedOnto solve_onto(const Surface& source, const TargetDomain& target, const OntoOptions& options) {
+    return solve_onto([&] { return extremal_map(source, target, options); });
+}
+
+SolvedOnto solve_onto(const std::function<ExtremalMapOnto()>& solver) {
+    SolvedOnto result;
+    const auto start = std::chrono::steady_clock::now();
+    try {
+        result.all = solver();
+        result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    } catch (const Error& error) {
+        result.refusal = error.what();
+    }
+    return result;
+}
+
+double k_of(double K) {
+    return (K - 1) / (K + 1);
+}
+
+std::string write(Output& output, const std::string& name, const Surface& source, const SolvedOnto& solved) {
+    return output.write(name, solved.mesh(source), solved.all->map, solved.all->distortion.face_abs_mu);
+}
+
+std::vector<std::string> onto_head(const std::string& first) {
+    return {first, "triangles", "known k", "k",     "bracket of k", "mean abs(μ)",
+            "std", "p99",       "max",     "flips", "iterations",   "seconds"};
+}
+
+std::vector<std::string> onto_row(const std::string& first, const Surface& source, const std::string& known,
+                                  const SolvedOnto& solved) {
+    if (!solved) return {first, std::to_string(source.mesh.face_count()), known, "refused: " + solved.refusal};
+    const ExtremalMapOnto& found = *solved.all;
+    const Distortion& d = found.distortion;
+    return {first,
+            std::to_string(solved.mesh(source).face_count()),
+            known,
+            number(found.k, 5),
+            number(k_of(found.K_lower), 5) + " to " + number(k_of(found.K_upper), 5),
+            number(d.mean),
+            number(d.standard_deviation),
+            number(d.p99),
+            number(d.max, 3),
+            std::to_string(d.flipped.size()),
+            std::to_string(found.iterations) + (found.termination == Termination::converged ? "" : " (not settled)"),
+            number(solved.seconds, 2)};
+}
+
+SolvedOnto OntoExample::run(Output& output, Figure& figure, Table& table, const Surface& source,
+                            const TargetDomain& target, const OntoOptions& options) const {
+    SolvedOnto solved = solve_onto(source, target, options);
+    table.rows.push_back(onto_row(caption, source, known, solved));
+    if (!solved) return solved;
+    const double shown = std::min(1.0, 1.6 * solved.all->k);
+    const std::string data = write(output, name, source, solved);
+    Picture picture{name, caption + ".", {}};
+    picture.panels.push_back(circles_panel(data, "source", "source", circles, segments));
+    picture.panels.push_back(circles_panel(data, "image", "image", circles, segments));
+    picture.panels.push_back(map_panel(data, "|μ|", shown));
+    picture.panels.push_back(histogram_panel({{"", data}}, "", solved.all->k, shown));
+    figure.pictures.push_back(std::move(picture));
+    return solved;
+}
+
+std::optional<std::filesystem::path> scan_path(const std::string& file) {
+    const char* folder = std::getenv("BELTRAMI_MESHES");
+    const std::filesystem::path path = std::filesystem::path(folder ? folder : "") / file;
+    if (folder && *folder && std::filesystem::exists(path)) return path;
+    fmt::print(stderr, "{} is not in the folder BELTRAMI_MESHES; what needs it is left out\n", file);
+    return {};
+}
+
+}  // namespace beltrami::gallery

@@ -1,0 +1,174 @@
+#include <beltrami/flow/beltrami_flow.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <beltrami/maps/vertex_samples.h>
+#include <beltrami/mesh/error.h>
+#include <beltrami/teichmuller/sliding_loops.h>
+#include <beltrami/teichmuller/sliding_map_step.h>
+
+namespace beltrami {
+
+namespace {
+
+/// How many solves the system is ordered for.
+constexpr int kExpectedFactorizations = 6;
+/// |ν| of a damped step, where the map at hand is folded.
+constexpr double kMostNu = 0.98;
+/// Beyond this part of the residual the misfit counts as one; below the other value all is rounding.
+constexpr double kMisfit = 0.4, kRounding = 1e-9;
+
+void require_coefficient(const Surface& source, const Eigen::VectorXcd& mu) {
+    if (mu.size() != source.operators.sample_count())
+        throw Error(Cause::bad_option,
+                    "the coefficient has " + std::to_string(mu.size()) + " values, the source " +
+                        std::to_string(source.operators.sample_count()) + " samples",
+                    "give one value for every triangle, four for every quad");
+    std::vector<int> bad;
+    for (Eigen::Index s = 0; s < mu.size(); ++s)
+        if (!(std::abs(mu[s]) < 1)) bad.push_back(static_cast<int>(s));
+    if (bad.empty()) return;
+    const std::string sentence = "the coefficient is not below 1 in size at " + std::to_string(bad.size()) +
+                                 " samples, the first of them " + std::to_string(bad[0]);
+    throw Error(Cause::bad_option, sentence, "every |μ| must be finite and below 1", std::move(bad));
+}
+
+/// Root mean square of b − a by that of a's distance from its mean, over the vertices of faces.
+double relative_change(const Surface& source, const Eigen::VectorXcd& a, const Eigen::VectorXcd& b) {
+    const std::vector<int>& vertices = source.operators.vertices;
+    Complex mean = 0;
+    for (const int v : vertices) mean += a[v] / static_cast<double>(vertices.size());
+    double moved = 0, size = 0;
+    for (const int v : vertices) {
+        moved += std::norm(b[v] - a[v]);
+        size += std::norm(a[v] - mean);
+    }
+    return std::sqrt(moved / size);
+}
+
+/// What a step asks for: the coefficient, or a mean of it and that of the map at hand.
+Eigen::VectorXcd wanted(const Surface& source, const Eigen::VectorXcd& map, const Eigen::VectorXcd& mu, double step) {
+    if (step == 1) return mu;
+    Eigen::VectorXcd nu = beltrami_coefficient(source.operators, map);
+    for (Eigen::Index s = 0; s < nu.size(); ++s) {
+        if (!std::isfinite(std::abs(nu[s]))) nu[s] = mu[s];
+        nu[s] = (1 - step) * nu[s] + step * mu[s];
+        const double size = std::abs(nu[s]);
+        if (size > std::max(kMostNu, std::abs(mu[s]))) nu[s] *= kMostNu / size;
+    }
+    return nu;
+}
+
+}  // namespace
+
+void FlowOptions::validate() const {
+    if (!(tolerance > 0)) throw Error(Cause::bad_option, "the tolerance must be positive");
+    if (max_iterations < 1) throw Error(Cause::bad_option, "there must be at least one iteration");
+    if (!(step > 0 && step <= 1)) throw Error(Cause::bad_option, "the step of the flow must be above 0 and at most 1");
+}
+
+CoefficientError coefficient_error(const Surface& source, const Eigen::VectorXcd& map, const Eigen::VectorXcd& mu) {
+    const Operators& operators = source.operators;
+    CoefficientError error;
+    // (∂̄f − μ∂f)/conj(∂f) is the same in every frame of the source, so that it can be averaged.
+    Eigen::VectorXcd turned(operators.sample_count());
+    Eigen::VectorXd image(operators.sample_count());
+    double squares = 0, area = 0, residual = 0, whole = 0;
+    for (int s = 0; s < operators.sample_count(); ++s) {
+        const auto [dz, dzbar] = operators.derivatives(s, map);
+        const Complex left = dzbar - mu[s] * dz;
+        const double difference = std::abs(dzbar / dz - mu[s]), w = operators.weights[s];
+        if (std::isfinite(difference)) {
+            squares += w * difference * difference;
+            area += w;
+            error.sup = std::max(error.sup, difference);
+        } else {
+            error.sup = std::numeric_limits<double>::infinity();
+        }
+        image[s] = w * std::norm(dz);
+        turned[s] = w * left * dz;  // the coefficient on the target, by weight
+        residual += w * std::norm(left);
+        whole += image[s];
+    }
+    error.l2 = area > 0 ? std::sqrt(squares / area) : 0.0;
+    error.residual = std::sqrt(residual / whole);
+
+    const VertexSamples around(operators);
+    Eigen::VectorXcd mean = Eigen::VectorXcd::Zero(operators.vertex_count);
+    for (int v = 0; v < operators.vertex_count; ++v) {
+        double sum = 0;
+        for (const auto& corner : around[v]) {
+            mean[v] += turned[corner.sample];
+            sum += image[corner.sample];
+        }
+        if (sum > 0) mean[v] /= sum;
+    }
+    double smooth = 0;
+    for (int s = 0; s < operators.sample_count(); ++s) {
+        Complex sum = 0;
+        for (const int v : operators.stencil(s)) sum += mean[v];
+        smooth += image[s] * std::norm(sum / static_cast<double>(operators.stencil(s).size()));
+    }
+    error.misfit = std::sqrt(smooth / whole);
+    return error;
+}
+
+FlowMap beltrami_flow(const Surface& source, const Eigen::VectorXcd& mu, const SlidingStart& start,
+                      const FlowOptions& options) {
+    options.validate();
+    require_genus_zero(source);
+    require_coefficient(source, mu);
+    if (start.map.size() != source.mesh.vertex_count() || start.curves.size() != source.topology.boundary_loops.size())
+        throw Error(Cause::bad_option, "the start belongs to another source", "make it with flow_start");
+    FlowMap result;
+    result.map = start.map;
+    SlidingBoundary boundary(source, start.loops);
+    boundary.place(result.map);
+    SlidingMapStep step(source, boundary, kExpectedFactorizations);
+    result.termination = Termination::iteration_limit;
+    while (result.iterations < options.max_iterations) {
+        const Eigen::VectorXcd before = result.map;
+        step.solve(wanted(source, before, mu, options.step), result.map, 0.1 * options.tolerance);
+        ++result.iterations;
+        FlowIteration now{step.movement(), relative_change(source, before, result.map),
+                          coefficient_error(source, result.map, mu), 0};
+        now.flips = static_cast<int>(distortion(source.operators, result.map).flipped.size());
+        result.history.push_back(now);
+        if (options.progress && !options.progress(result.iterations, now, result.map))
+            throw Error(Cause::cancelled, "cancelled after iteration " + std::to_string(result.iterations));
+        if (now.movement < options.tolerance && now.change < options.tolerance) {
+            result.termination = Termination::converged;
+            break;
+        }
+    }
+    result.factorizations = start.factorizations + step.factorization_count();
+    result.distortion = distortion(source.operators, result.map);
+    result.error = result.history.back().error;
+    result.loops = loops_onto(source, boundary, start.curves, result.map);
+    require_not_collapsed(result.loops);
+    result.fits = result.error.misfit < std::max(kMisfit * result.error.residual, kRounding);
+    if (!result.fits)
+        result.warnings.push_back(
+            "the coefficient does not belong to a map onto this target: the relative residual is " +
+            std::to_string(result.error.residual) + ", of which " + std::to_string(result.error.misfit) +
+            " are no error of the mesh; the map is the least-squares one");
+    if (!result.distortion.flipped.empty())
+        result.warnings.push_back("flipped faces in the result: " + std::to_string(result.distortion.flipped.size()) +
+                                  "; it is not one-to-one there");
+    if (result.termination == Termination::iteration_limit)
+        result.warnings.push_back("stopped after " + std::to_string(result.iterations) +
+                                  " iterations before the map settled");
+    return result;
+}
+
+FlowMap beltrami_flow(const Surface& source, const TargetDomain& target, const Eigen::VectorXcd& mu,
+                      const FlowOptions& options, const OntoOptions& start) {
+    options.validate();
+    require_coefficient(source, mu);
+    return beltrami_flow(source, mu, flow_start(source, target, start), options);
+}
+
+}  // namespace beltrami

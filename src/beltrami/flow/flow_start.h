@@ -1,0 +1,22 @@
+#pragma once
+
+#include <beltrami/teichmuller/sliding_start.h>
+
+namespace beltrami {
+
+/// A start for flows onto a domain, as extremal_map finds it: the loops matched and the harmonic map, or one led along
+/// a way (sliding_start.h). Marked vertices are held; without two holes so are as many others as conformal maps leave
+/// free.
+/// @param options outer_loop, loops, match_by, marks, waypoints, start_turns and target_edge_length count
+/// @throw Error bad_mesh (one component of genus 0 with a boundary), bad_boundary, bad_option, not_solved
+SlidingStart flow_start(const Surface& source, const TargetDomain& target, const OntoOptions& options = {});
+
+/// A given map as a start: every loop goes to the curve that its vertices are nearest to, they to the nearest points.
+/// @param map  #V in the target's plane
+/// @param held vertices of the boundary that keep their places; see above for more
+/// @throw Error bad_mesh, bad_option (sizes, numbers that are not finite), bad_boundary: two loops on one curve, held
+///        vertices inside
+SlidingStart flow_start(const Surface& source, const TargetDomain& target, const Eigen::VectorXcd& map,
+                        const std::vector<int>& held = {});
+
+}  // namespace beltrami
