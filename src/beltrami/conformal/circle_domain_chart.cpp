@@ -8,6 +8,7 @@
 #include <beltrami/conformal/circle_fit.h>
 #include <beltrami/conformal/circle_slide.h>
 #include <beltrami/conformal/hole_centre.h>
+#include <beltrami/maps/dirichlet_solver.h>
 #include <beltrami/maps/fold_free.h>
 #include <beltrami/mesh/error.h>
 #include <beltrami/operators/distortion.h>
@@ -89,15 +90,6 @@ void snap(const Surface& source, const std::vector<RoundHole>& circles, Chart& c
         }
 }
 
-BeltramiSolver harmonic_solver(const Surface& source) {
-    std::vector<Freedom> freedom(source.mesh.vertex_count(), Freedom::fixed);
-    for (const int v : source.mesh.faces.vertices())
-        if (!source.topology.on_boundary[v]) freedom[v] = Freedom::free;
-    BeltramiSolver solver(source, freedom, 1);
-    solver.factorize(Eigen::VectorXcd::Zero(source.operators.sample_count()));
-    return solver;
-}
-
 std::vector<int> pinched_faces(const Surface& source, int outer_loop) {
     const Topology& topology = source.topology;
     std::vector<int> hole_of(source.mesh.vertex_count(), -1);
@@ -142,9 +134,7 @@ void measure(const Surface& source, CircleDomainChart& result) {
 void unfold(const Surface& source, CircleDomainChart& result) {
     const std::size_t folded = unforced(source, result).size();
     if (folded == 0) return;
-    std::vector<Freedom> freedom(source.mesh.vertex_count(), Freedom::fixed);
-    for (const int v : source.mesh.faces.vertices())
-        if (!source.topology.on_boundary[v]) freedom[v] = Freedom::free;
+    const std::vector<Freedom> freedom = dirichlet_freedoms(source);
     FoldFreeOptions options;
     options.tolerance = 1e-3;
     options.max_iterations = 200;
@@ -180,7 +170,7 @@ void slide(const Surface& source, const CircleDomainOptions& options, CircleDoma
         holes.push_back({hole.loop, place.centre, place.radius});
     }
     result.roundness = roundness(source, result.chart, holes);
-    const BeltramiSolver dirichlet = harmonic_solver(source);
+    const BeltramiSolver dirichlet = dirichlet_solver(source);
     CircleSlide map = put_on_circles(source, dirichlet, result.chart.outer_loop, result.chart.vertices, holes);
     slide_on_circles(source, dirichlet, result.chart.outer_loop, map,
                      {options.max_steps, options.tolerance, options.least_gap});

@@ -8,7 +8,7 @@
 #include <beltrami/conformal/circle_fit.h>
 #include <beltrami/conformal/flatten.h>
 #include <beltrami/conformal/greens_function.h>
-#include <beltrami/maps/beltrami_solver.h>
+#include <beltrami/maps/dirichlet_solver.h>
 #include <beltrami/mesh/planar.h>
 
 namespace beltrami {
@@ -20,16 +20,6 @@ constexpr double kPi = std::numbers::pi;
 /// The real harmonic function with the values of @p boundary on the boundary.
 Eigen::VectorXd harmonic_extension(const BeltramiSolver& dirichlet, const Eigen::VectorXd& boundary) {
     return dirichlet.solve(boundary.cast<Complex>()).real();
-}
-
-/// A solver that fixes exactly the boundary, factorised for harmonic maps.
-BeltramiSolver dirichlet_solver(const Surface& source) {
-    std::vector<Freedom> freedom(source.mesh.vertex_count(), Freedom::fixed);
-    for (const int v : source.mesh.faces.vertices())
-        if (!source.topology.on_boundary[v]) freedom[v] = Freedom::free;
-    BeltramiSolver solver(source, freedom, 1);
-    solver.factorize(Eigen::VectorXcd::Zero(source.operators.sample_count()));
-    return solver;
 }
 
 /// From so many samples on flattening a patch instead of the whole surface saves much (docs/performance.md).

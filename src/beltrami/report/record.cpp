@@ -176,7 +176,11 @@ MapRecord map_record(const Distortion& distortion) {
     return record;
 }
 
-MapRecord map_record(const ExtremalMap& result) {
+namespace {
+
+/// Of either kind of extremal map: with the boundary prescribed, or sliding.
+template <class Extremal>
+MapRecord extremal_map_record(const Extremal& result) {
     MapRecord record = map_record(result.distortion);
     record.k = result.k;
     record.K = result.K;
@@ -186,14 +190,20 @@ MapRecord map_record(const ExtremalMap& result) {
     return record;
 }
 
+template <class Extremal>
+SolveRecord extremal_solve_record(const Extremal& result, double seconds_total) {
+    return {result.iterations,   to_string(result.termination), result.factorizations, seconds_total, {},
+            result.folds_removed};
+}
+
+}  // namespace
+
+MapRecord map_record(const ExtremalMap& result) {
+    return extremal_map_record(result);
+}
+
 MapRecord map_record(const ExtremalMapOnto& result) {
-    MapRecord record = map_record(result.distortion);
-    record.k = result.k;
-    record.K = result.K;
-    if (result.distortion.flipped.empty() || result.K_lower > 1) record.K_lower = result.K_lower;
-    record.bounds = result.bounds;
-    record.boundary_residual = result.boundary_residual;
-    return record;
+    return extremal_map_record(result);
 }
 
 MapRecord map_record(const LeastMaximumMap& result) {
@@ -212,13 +222,11 @@ MapRecord map_record(const LeastMaximumMap& result) {
 }
 
 SolveRecord solve_record(const ExtremalMap& result, double seconds_total) {
-    return {result.iterations,   to_string(result.termination), result.factorizations, seconds_total, {},
-            result.folds_removed};
+    return extremal_solve_record(result, seconds_total);
 }
 
 SolveRecord solve_record(const ExtremalMapOnto& result, double seconds_total) {
-    return {result.iterations,   to_string(result.termination), result.factorizations, seconds_total, {},
-            result.folds_removed};
+    return extremal_solve_record(result, seconds_total);
 }
 
 OntoRecord onto_record(const ExtremalMapOnto& result, const std::string& target) {

@@ -36,7 +36,8 @@ struct OntoOptions {
     /// How the admissible differentials are found: by L² projection on the source's mesh (projected_space.h), which has
     /// the errors of the mesh just as the maps have, by Laurent series on the circle domain of the source
     /// (laurent_space.h), which are exact there, or, for a disk with four marks, as the square of a 1-form
-    /// (one_form_squares.h), which is at home in corners. automatic: the last for four marks on a disk, else the first.
+    /// (one_form_squares.h), which is at home in corners. automatic: the second for round disks and annuli in the
+    /// plane, the third for other disks with four marks, else the first.
     enum class Space { automatic, projection, laurent, one_form_squares };
     Space space = Space::automatic;
     /// Large problems without marks start from the extremal map of a coarse mesh of the source's circle domain.

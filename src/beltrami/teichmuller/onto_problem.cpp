@@ -7,6 +7,7 @@
 #include <string>
 
 #include <beltrami/differentials/dimension.h>
+#include <beltrami/maps/dirichlet_solver.h>
 #include <beltrami/maps/fold_free.h>
 #include <beltrami/mesh/error.h>
 #include <beltrami/teichmuller/coarse_sliding_start.h>
@@ -27,14 +28,6 @@ constexpr double kSettled = 1e-9;
 constexpr int kConformalSteps = 100;
 /// Points of the c-step on large meshes, and what sharper differences of φ ask for.
 constexpr int kClusters = 1500;
-
-/// Boundary vertices that keep their places.
-std::vector<Freedom> held_boundary(const Surface& source) {
-    std::vector<Freedom> result(source.mesh.vertex_count(), Freedom::fixed);
-    for (const int v : source.mesh.faces.vertices())
-        if (!source.topology.on_boundary[v]) result[v] = Freedom::free;
-    return result;
-}
 
 /// Rotation of the c-step's grid, tied to the source's shape.
 double phase_of(const CircleDomainChart& domain, const Surface& source) {
@@ -180,7 +173,7 @@ void OntoProblem::iterate(OntoDifferentials phi, SlidingBoundary& boundary, Slid
     }
     result.distortion = distortion(source_.operators, result.map);
     if (options_.remove_folds && !result.distortion.flipped.empty()) {
-        const FoldFreeMap opened = fold_free_map(source_, held_boundary(source_), nu, result.map);
+        const FoldFreeMap opened = fold_free_map(source_, dirichlet_freedoms(source_), nu, result.map);
         result.factorizations += opened.factorizations;
         if (opened.fold_free) {
             result.map = opened.map;
