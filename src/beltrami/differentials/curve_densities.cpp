@@ -14,7 +14,7 @@ constexpr int kGapsAtFirst = 4;
 /// Edges between nodes, at least, on curves that are not too short for it: finer ones raised no bound.
 constexpr int kFinestGap = 4;
 
-/// (Length of an edge over its distance)² below which the logarithm is a short series, good to 1e-11.
+/// (Length of an edge over its distance)² below which the logarithm is a short series, good to 1e-15.
 constexpr double kAfar = 0.04;
 
 /// The integrals over one edge a → b, without the factor 1/2πi, of densities that are 1 at one end and 0 at the other.
@@ -31,8 +31,8 @@ EdgeIntegrals edge_integrals(Complex a, Complex b, Complex z) {
         const double re = (edge.real() * from_middle.real() + edge.imag() * from_middle.imag()) / away,
                      im = (edge.imag() * from_middle.real() - edge.real() * from_middle.imag()) / away;
         const double s_re = re * re - im * im, s_im = 2 * re * im;  // q²
-        double t_re = 1.0 / 2304, t_im = 0;
-        for (const double next : {1.0 / 448, 1.0 / 80, 1.0 / 12, 0.0}) {
+        double t_re = 1.0 / 53248, t_im = 0;
+        for (const double next : {1.0 / 11264, 1.0 / 2304, 1.0 / 448, 1.0 / 80, 1.0 / 12, 0.0}) {
             const double up = t_re * s_re - t_im * s_im + next;
             t_im = t_re * s_im + t_im * s_re;
             t_re = up;

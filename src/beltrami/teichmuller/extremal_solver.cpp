@@ -3,11 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 
-#include <beltrami/conformal/circle_fit.h>
-#include <beltrami/conformal/domain_chart.h>
 #include <beltrami/differentials/polynomial_space.h>
 #include <beltrami/maps/boundary_feasibility.h>
 #include <beltrami/maps/even_dilatation.h>
@@ -20,6 +17,7 @@
 #include <beltrami/teichmuller/piecewise_solver.h>
 #include <beltrami/teichmuller/prepared_problem.h>
 #include <beltrami/teichmuller/problem.h>
+#include <beltrami/teichmuller/problem_chart.h>
 #include <beltrami/teichmuller/solution_bounds.h>
 
 namespace beltrami {
@@ -56,12 +54,6 @@ constexpr double kRoughRounding = 0.005;
 /// Newton step, as part of the whole, to which the c-step is solved after the iteration.
 constexpr double kFinishingStep = 3e-4;
 constexpr int kFinishingSteps = 20;
-/// Mean |μ| from which on a chart is inaccurate.
-constexpr double kInaccurateChart = 0.03;
-/// Corners of a planar source that turn by more than this (radians) make its Riemann map inaccurate there; with so few
-/// of them poles in its own coordinates do better.
-constexpr double kSharp = 0.5;
-constexpr int kFewCorners = 12;
 /// Directions of held vertices that turn by less (radians) are kept, and they are followed so often.
 constexpr double kTurned = 0.02;
 constexpr int kMostTurns = 4;
@@ -76,24 +68,6 @@ int folded_samples(const Eigen::VectorXcd& mu) {
 /// Prescribed vertices of @p map put in their places.
 void prescribe(Eigen::VectorXcd& map, const BoundaryCondition& boundary) {
     for (std::size_t i = 0; i < boundary.vertices.size(); ++i) map[boundary.vertices[i]] = boundary.images[i];
-}
-
-/// Whether the outer loop of a planar source lies on a circle.
-bool outer_loop_is_round(const Surface& source) {
-    const Eigen::VectorXcd z = planar_coordinates(source.mesh);
-    std::vector<Complex> outline;
-    for (const int v : source.topology.boundary_loops[0]) outline.push_back(z[v]);
-    return fit_circle(outline).exact();
-}
-
-/// Whether a chart is so inaccurate that a plane source is better described by its own coordinates.
-bool far_from_conformal(const Surface& source, const Chart& chart) {
-    double sum = 0;
-    for (int s = 0; s < source.operators.sample_count(); ++s) {
-        const auto [dz, dzbar] = source.operators.derivatives(s, chart.vertices);
-        sum += source.operators.weights[s] * std::abs(dzbar) / std::abs(dz);
-    }
-    return sum > kInaccurateChart * source.operators.area();
 }
 
 }  // namespace
@@ -124,13 +98,11 @@ struct ExtremalSolver::Implementation {
         : options(o),
           boundary(b),
           prepared(std::move(p)),
-          source(prepared.surface ? *prepared.surface : given),
+          source(prepared.surface_of(given)),
           problem(source, boundary, kExpectedFactorizations) {
-        if (prepared.split)
-            warnings.push_back(std::to_string(prepared.split->split_edges) +
-                               " edges between prescribed vertices were split; added vertices follow the source's");
+        if (prepared.split) warnings.push_back(prepared.split_warning("prescribed"));
         corners = find_corners(source, boundary);
-        Chart chart = best_chart();
+        Chart chart = chart_of_problem(source, boundary, corners, options.outer_loop, problem.solver());
         other_factorizations += chart.factorizations;
         warnings.insert(warnings.end(), chart.warnings.begin(), chart.warnings.end());
         Singularities singularities = singularities_of(source, chart, boundary, corners, problem.harmonic());
@@ -151,32 +123,6 @@ struct ExtremalSolver::Implementation {
             if (other.loop == corner.loop && apart > 0 && std::min(apart, n - apart) < kResolvedEdges) return false;
         }
         return true;
-    }
-
-    /// Whether the outer loop is a polygon of few corners.
-    bool few_sharp_corners() const {
-        int sharp = 0;
-        for (const BoundaryCorner& corner : corners)
-            if (corner.loop == options.outer_loop && std::abs(corner.source_angle - std::numbers::pi) > kSharp) ++sharp;
-        return sharp > 0 && sharp <= kFewCorners;
-    }
-
-    Chart best_chart() const {
-        const bool own_coordinates = options.outer_loop == 0 && source.in_plane();
-        if (own_coordinates && few_sharp_corners() && !outer_loop_is_round(source)) return plane_chart(source);
-        const bool inside = !boundary.lines.empty() || boundary.vertices.size() > boundary_vertex_count();
-        Chart chart = domain_chart(source, options.outer_loop, inside ? nullptr : &problem.solver());
-        if (chart.exact || !own_coordinates || !far_from_conformal(source, chart)) return chart;
-        const int factorizations = chart.factorizations;
-        chart = plane_chart(source);
-        chart.factorizations = factorizations;
-        return chart;
-    }
-
-    std::size_t boundary_vertex_count() const {
-        std::size_t count = 0;
-        for (const auto& loop : source.topology.boundary_loops) count += loop.size();
-        return count;
     }
 
     void choose_start(bool smooth) {
@@ -315,8 +261,7 @@ ExtremalSolver::ExtremalSolver(const Surface& source, const BoundaryCondition& b
     PreparedProblem prepared = prepare(source, boundary, options);
     ProblemPieces cut;
     // A class that is asked for is one of the whole.
-    if (options.turns.empty() && !options.waypoints)
-        cut = pieces_of(prepared.surface ? *prepared.surface : source, boundary);
+    if (options.turns.empty() && !options.waypoints) cut = pieces_of(prepared.surface_of(source), boundary);
     if (cut.pieces.empty()) {
         implementation_ = std::make_unique<Implementation>(source, boundary, options, std::move(prepared));
         if (!cut.obstacle.empty()) implementation_->warnings.push_back(cut.obstacle);

@@ -17,7 +17,7 @@ PiecewiseSolver::PiecewiseSolver(const Surface& source, const BoundaryCondition&
     : options_(options),
       boundary_(boundary),
       prepared_(std::move(prepared)),
-      source_(prepared_.surface ? *prepared_.surface : source),
+      source_(prepared_.surface_of(source)),
       pieces_(std::move(pieces)) {
     std::optional<Eigen::VectorXcd> start = options_.start;
     if (start && prepared_.split) start = with_parents_means(*start, prepared_.split->parents);
@@ -98,9 +98,7 @@ void PiecewiseSolver::merge(std::vector<ExtremalMap>& parts, ExtremalMap& whole)
     whole.phi = Eigen::VectorXcd::Zero(operators.sample_count());
     whole.split = prepared_.split;
     whole.factorizations = chart_factorizations_;
-    if (prepared_.split)
-        whole.warnings.push_back(std::to_string(prepared_.split->split_edges) +
-                                 " edges between prescribed vertices were split; added vertices follow the source's");
+    if (prepared_.split) whole.warnings.push_back(prepared_.split_warning("prescribed"));
     std::size_t decisive = 0;
     for (std::size_t p = 0; p < parts.size(); ++p) {
         ExtremalMap& part = parts[p];

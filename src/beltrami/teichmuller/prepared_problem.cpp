@@ -5,6 +5,20 @@
 
 namespace beltrami {
 
+std::string PreparedProblem::split_warning(const char* kind) const {
+    return std::to_string(split->split_edges) + " edges between " + kind +
+           " vertices were split; added vertices follow the source's";
+}
+
+PreparedProblem split_problem(const Surface& source, const BoundaryCondition& boundary) {
+    PreparedProblem result;
+    SplitProblem split = split_prescribed(source, boundary);
+    if (split.split_edges == 0) return result;
+    result.surface = surface_of(split.mesh, split.metric);
+    result.split = std::move(split);
+    return result;
+}
+
 PreparedProblem prepare(const Surface& source, const BoundaryCondition& boundary, const ExtremalOptions& options) {
     options.validate();
     require_genus_zero(source);
@@ -20,13 +34,8 @@ PreparedProblem prepare(const Surface& source, const BoundaryCondition& boundary
     if (options.start && options.start->size() != source.mesh.vertex_count())
         throw Error(Cause::bad_option, "the start has " + std::to_string(options.start->size()) + " values for " +
                                            std::to_string(source.mesh.vertex_count()) + " vertices");
-    PreparedProblem result;
-    if (!options.split_prescribed) return result;
-    SplitProblem split = split_prescribed(source, boundary);
-    if (split.split_edges == 0) return result;
-    result.surface = surface_of(split.mesh, split.metric);
-    result.split = std::move(split);
-    return result;
+    if (!options.split_prescribed) return {};
+    return split_problem(source, boundary);
 }
 
 }  // namespace beltrami

@@ -1,20 +1,30 @@
 #pragma once
 
+#include <string>
+
 #include <beltrami/maps/prescribed_split.h>
 #include <beltrami/teichmuller/extremal_map.h>
 
 namespace beltrami {
 
-/// An extremal problem on a mesh that no prescription nails down.
+/// A problem on a mesh that no prescription nails down.
 struct PreparedProblem {
     std::optional<SplitProblem> split;  ///< none where nothing had to be split
     std::optional<Surface> surface;     ///< of split
 
-    /// Vertices that the split has added.
-    int added() const { return split ? static_cast<int>(split->parents.size()) : 0; }
+    /// The surface to solve on.
+    const Surface& surface_of(const Surface& source) const { return surface ? *surface : source; }
+    /// What the result says about the split.
+    /// @param kind of the vertices between which edges were split
+    /// @pre split
+    std::string split_warning(const char* kind) const;
 };
 
-/// Examines an extremal problem and splits what prescribed vertices nail down, where the options ask for it.
+/// Splits what prescribed vertices nail down.
+/// @pre validate(boundary, source)
+PreparedProblem split_problem(const Surface& source, const BoundaryCondition& boundary);
+
+/// Examines an extremal problem with prescribed boundary values and splits it, where the options ask for it.
 /// @throw Error bad_mesh, bad_boundary, bad_option as extremal_map
 PreparedProblem prepare(const Surface& source, const BoundaryCondition& boundary, const ExtremalOptions& options);
 

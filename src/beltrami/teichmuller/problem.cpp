@@ -134,6 +134,7 @@ void add_inner(const Surface& source, const Chart& chart, const BoundaryConditio
     for (const int v : boundary.vertices) pole[v] = !source.topology.on_boundary[v];
     std::vector<char> held(source.mesh.vertex_count(), 0);
     for (const auto& line : boundary.lines) held[line.vertex] = 1;
+    std::vector<int> bends;
     for (const ConstraintCurve& whole : constraint_curves(boundary, source)) {
         // Parts between sharp bends of what is held to a line: there points cannot slide.
         const bool real = whole.kind == EdgeConstraint::on_line;
@@ -144,6 +145,7 @@ void add_inner(const Surface& source, const Chart& chart, const BoundaryConditio
             if (real && std::abs(std::arg(turn)) > kSharpBend) {
                 ends.push_back(i);
                 pole[v[i]] = 1;
+                bends.push_back(v[i]);
             } else if (!real) {
                 pole[v[i]] = 0;  // the jump takes its part
             }
@@ -175,8 +177,9 @@ void add_inner(const Surface& source, const Chart& chart, const BoundaryConditio
             result.curves.push_back(std::move(curve));
         }
     }
-    for (int v = 0; v < source.mesh.vertex_count(); ++v)
+    for (const int v : boundary.vertices)
         if (pole[v]) result.pins.push_back(z[v]);
+    for (const int v : bends) result.pins.push_back(z[v]);
 }
 
 }  // namespace
