@@ -5,6 +5,7 @@
 
 #include <beltrami/generate/grids.h>
 #include <beltrami/mesh/error.h>
+#include <beltrami/mesh/parallel.h>
 #include <beltrami/teichmuller/extremal_solver.h>
 
 #include "support/extremal.h"
@@ -132,6 +133,42 @@ TEST(PinnedCurves, OfTheExactMapChangeNothing) {
             EXPECT_NEAR(solved.result.k, 0.5, 1e-3) << held << from << to;
             EXPECT_NEAR(solved.result.K_lower, 3, 0.01);
         }
+}
+
+TEST(PinnedCurves, AnyPlaceSizeAndNumbering) {
+    for (const bool held : {false, true}) {
+        bench::Problem problem = on_the_axis(0.06, -2.0, 0.2, held);
+        // Away from where the free map sends the curve.
+        for (auto& line : problem.boundary.lines) line.point += Complex(0, 0.03);
+        const ExtremalMap result = test::solve(problem).result;
+        expect_sound(result);
+        for (const bench::Problem& other :
+             {test::moved(problem, std::polar(1e3, 1.0), {3, 1}, std::polar(1e-3, 0.7), {5, 2}),
+              test::renumbered(problem)}) {
+            const ExtremalMap same = extremal_map(other.mesh, other.boundary);
+            EXPECT_TRUE(same.one_to_one());
+            EXPECT_NEAR(same.k, result.k, 1e-6) << held;
+            EXPECT_NEAR(same.K_lower, result.K_lower, 1e-5) << held;
+        }
+    }
+}
+
+TEST(PinnedCurves, SameBytesOnAnyNumberOfThreads) {
+    const int before = thread_count();
+    for (const bool held : {false, true})
+        for (const double to : {0.2, 2.0}) {
+            const bench::Problem problem = on_the_axis(0.05, -2.0, to, held);
+            set_thread_count(1);
+            const ExtremalMap one = extremal_map(problem.mesh, problem.boundary);
+            for (const int threads : {2, 4}) {
+                set_thread_count(threads);
+                const ExtremalMap more = extremal_map(problem.mesh, problem.boundary);
+                EXPECT_EQ(more.map, one.map) << threads << held << to;
+                EXPECT_EQ(more.phi, one.phi) << threads << held << to;
+                EXPECT_EQ(more.K_lower, one.K_lower) << threads << held << to;
+            }
+        }
+    set_thread_count(before);
 }
 
 TEST(PinnedCurves, AHeldVertexFindsTheBestPlaceOnItsLine) {

@@ -36,7 +36,7 @@ std::vector<EdgeConstraint> edge_constraints(const BoundaryCondition& boundary, 
     const Topology& topology = source.topology;
     std::vector<EdgeConstraint> result(topology.edge_count(), EdgeConstraint::none);
     for (int e = 0; e < topology.edge_count(); ++e) {
-        if (topology.edge_faces[e][0] < 0 || topology.edge_faces[e][1] < 0) continue;
+        if (topology.on_boundary[topology.edges[e][0]] && topology.on_boundary[topology.edges[e][1]]) continue;
         const Place &a = places[topology.edges[e][0]], &b = places[topology.edges[e][1]];
         if (a.pinned && b.pinned) {
             result[e] = EdgeConstraint::pinned;

@@ -13,7 +13,8 @@ enum class EdgeConstraint : unsigned char {
     pinned,   ///< both ends are pinned, and with them the edge
 };
 
-/// #E constraints of topology's edges; none for edges of the boundary.
+/// #E constraints of topology's edges; none for edges of the boundary, and none where both ends lie on the boundary:
+/// that they are pinned there says nothing about what is between them.
 /// @pre validate(boundary, source)
 std::vector<EdgeConstraint> edge_constraints(const BoundaryCondition& boundary, const Surface& source);
 

@@ -15,6 +15,8 @@ constexpr double kClip = 0.95;
 /// δ of the rounded |φ| as part of its mean, per edge length of a sample in a domain of diameter 2: about |φ| at a
 /// fraction of an edge from a simple zero.
 constexpr double kRounding = 0.4;
+/// Where curves are, Newton's method needs the Hessian of what it minimises: so many clusters, at least.
+constexpr int kClustersWithCurves = 12000;
 /// Without a start, Newton's method begins with these values of δ.
 constexpr std::array kColdRoundings{0.3, 0.1, 0.03};
 /// … and ends each of them at steps of this length.
@@ -34,7 +36,9 @@ CoefficientStep::CoefficientStep(const Surface& source, const Chart& chart, cons
     : source_(source),
       chart_(chart),
       sampled_(chart, singularities, phase),
-      clusters_(cluster_samples(source.operators, chart, singularities, phase, cluster_count)) {
+      clusters_(cluster_samples(
+          source.operators, chart, singularities, phase,
+          singularities.curves.empty() ? cluster_count : std::max(cluster_count, kClustersWithCurves))) {
     soft_ = !singularities.curves.empty();
     SamplePoints means = points_near(singularities, source, chart);
     set_quadrature(means);
@@ -188,7 +192,8 @@ CoefficientStep::Result CoefficientStep::solve(const Eigen::VectorXcd& mu, const
     problem_.pairing = sampled_.pair(pairing_weight);
     const SampleNorm norm(sampled_, chart_, norm_weight);
     Eigen::VectorXcd at = start;
-    if (at.size() == 0)
+    // New densities are as far from what they have to be as all functions are without a start.
+    if (at.size() == 0 || (soft_ && at.size() < problem_.basis.cols()))
         for (const double rounding : kColdRoundings) {
             problem_.rounding = rounding;
             at = solve_dual(problem_, at, {.step = kColdStep, .norm = &norm}).coefficients;

@@ -300,7 +300,7 @@ ExtremalMap ExtremalSolver::solve() {
     using Evening = ExtremalOptions::Evening;
     m.history.clear();
     bool evened = false;
-    if (m.problem.singular() && m.options.evening != Evening::never) {
+    if (m.problem.singular() && !m.problem.jumps() && m.options.evening != Evening::never) {
         // Evening out moves φ more than the last digits of the iteration do.
         HamiltonIteration::Options rough = iteration_options(m.options);
         rough.tolerance = std::max(rough.tolerance, kRoughTolerance);

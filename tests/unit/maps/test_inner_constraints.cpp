@@ -1,8 +1,11 @@
 #include <beltrami/generate/grids.h>
 #include <beltrami/maps/inner_constraints.h>
+#include <beltrami/mesh/error.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 
 namespace beltrami {
 namespace {
@@ -40,6 +43,14 @@ TEST(InnerConstraints, AChainOfPinsInside) {
     ASSERT_EQ(curves.size(), 1u);
     EXPECT_EQ(curves[0].kind, EdgeConstraint::pinned);
     EXPECT_EQ(curves[0].vertices, (std::vector{grid.vertex(4, 3), grid.vertex(4, 4), grid.vertex(4, 5)}));
+}
+
+TEST(InnerConstraints, AnEdgeBetweenBoundaryVerticesIsNone) {
+    const Surface strip(rectangle(8, 1, 8, 1));
+    BoundaryCondition boundary;
+    for (int v = 0; v < strip.mesh.vertex_count(); ++v)
+        boundary.pin(v, {strip.mesh.positions(v, 0), strip.mesh.positions(v, 1)});
+    EXPECT_TRUE(constraint_curves(boundary, strip).empty());
 }
 
 TEST(InnerConstraints, ALineFromSideToSide) {
@@ -93,6 +104,44 @@ TEST(InnerConstraints, AClosedCurve) {
     for (const EdgeConstraint c : edge_constraints(grid.boundary, grid.surface))
         constrained += c == EdgeConstraint::pinned;
     EXPECT_EQ(edges, constrained);
+}
+
+TEST(InnerConstraints, ContradictionsAreRefused) {
+    const auto refused = [](const Grid& grid, int vertex, const std::string& words) {
+        try {
+            validate(grid.boundary, grid.surface);
+        } catch (const Error& error) {
+            EXPECT_EQ(error.cause(), Cause::bad_boundary);
+            EXPECT_EQ(error.indices(), std::vector{vertex});
+            EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+            return true;
+        }
+        return false;
+    };
+    Grid fine;
+    fine.hold(4, 4, 1.0);
+    fine.pin(3, 4);
+    EXPECT_NO_THROW(validate(fine.boundary, fine.surface));
+    Grid on_the_rim;
+    const int corner = on_the_rim.vertex(0, 5);
+    BoundaryCondition without;
+    for (const int v : on_the_rim.boundary.vertices)
+        if (v != corner) without.pin(v, on_the_rim.at(v));
+    on_the_rim.boundary = without;
+    on_the_rim.hold(0, 5, Complex(0, 1));
+    EXPECT_TRUE(refused(on_the_rim, corner, "may not slide"));
+    Grid both = fine;
+    both.pin(4, 4);
+    EXPECT_TRUE(refused(both, both.vertex(4, 4), "twice"));
+    Grid two_lines = fine;
+    two_lines.hold(4, 4, Complex(0, 1));
+    EXPECT_TRUE(refused(two_lines, two_lines.vertex(4, 4), "twice"));
+    Grid no_direction;
+    no_direction.hold(4, 4, 0.0);
+    EXPECT_TRUE(refused(no_direction, no_direction.vertex(4, 4), "not a line"));
+    Grid nowhere;
+    nowhere.boundary.pin_to_line(nowhere.vertex(4, 4), {std::nan(""), 0}, 1.0);
+    EXPECT_TRUE(refused(nowhere, nowhere.vertex(4, 4), "not a line"));
 }
 
 }  // namespace

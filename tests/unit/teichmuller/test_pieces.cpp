@@ -1,5 +1,6 @@
 #include <beltrami/generate/grids.h>
 #include <beltrami/maps/prescribed_split.h>
+#include <beltrami/teichmuller/extremal_map.h>
 #include <beltrami/teichmuller/pieces.h>
 #include <gtest/gtest.h>
 
@@ -80,6 +81,29 @@ TEST(Pieces, ThatNoMapCanHaveAreNotCut) {
     const ProblemPieces cut = pieces_of(surface, boundary);
     EXPECT_TRUE(cut.pieces.empty());
     EXPECT_FALSE(cut.obstacle.empty());
+}
+
+TEST(Pieces, ACurveThatTouchesItselfIsNotCut) {
+    // An eight: the part around it meets itself in one vertex.
+    const auto [surface, identity] = pinned_square(12, [](Complex z) {
+        const auto square = [&](Complex centre) {
+            const Complex from = z - centre;
+            return std::max(std::abs(from.real()), std::abs(from.imag())) == 2;
+        };
+        return square({4, 4}) || square({8, 8});
+    });
+    const ProblemPieces cut = pieces_of(surface, identity);
+    EXPECT_TRUE(cut.pieces.empty());
+    EXPECT_NE(cut.obstacle.find("3 pieces"), std::string::npos) << cut.obstacle;
+    // It is solved as one, and says so.
+    BoundaryCondition stretched = identity;
+    for (Complex& image : stretched.images) image.real(2 * image.real());
+    const ExtremalMap map = extremal_map(surface, stretched);
+    EXPECT_TRUE(map.pieces.empty());
+    EXPECT_NEAR(map.K, 2, 1e-8);
+    EXPECT_NEAR(map.K_lower, 2, 1e-8);
+    EXPECT_TRUE(map.one_to_one());
+    EXPECT_NE(std::find(map.warnings.begin(), map.warnings.end(), cut.obstacle), map.warnings.end());
 }
 
 }  // namespace
