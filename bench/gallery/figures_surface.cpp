@@ -162,9 +162,8 @@ Figure figure_12(Output& output) {
     }
     figure.remarks.push_back(
         "Our part is gentler than the fandisk: no method folds. Pinned features cut the part into pieces, each of "
-        "which is "
-        "mapped by its own extremal map; k is that of the worst. Features that slide leave φ a real jump across "
-        "them.");
+        "which is mapped by its own extremal map; k is that of the worst. Features that slide leave φ a real jump "
+        "across them.");
     return figure;
 }
 
