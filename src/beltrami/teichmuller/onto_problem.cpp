@@ -121,7 +121,8 @@ ExtremalMapOnto OntoProblem::solve(const TargetModel& target) {
 
     SlidingBoundary boundary(source_, start.loops);
     SlidingMapStep step(source_, boundary, kExpectedFactorizations);
-    OntoDifferentials phi = onto_differentials(source_, domain_, options_.space, marked_, result.expected_dimension);
+    OntoDifferentials phi =
+        onto_differentials(source_, domain_, options_.space, marked_, result.expected_dimension, &step.lend_solver());
     result.space = phi.kind;
     result.dimension_gap = phi.gap;
     result.warnings = phi.warnings;

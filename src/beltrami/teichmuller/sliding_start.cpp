@@ -4,9 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <string>
 
 #include <beltrami/mesh/error.h>
+#include <beltrami/teichmuller/untwisting.h>
 
 namespace beltrami {
 
@@ -15,6 +17,9 @@ namespace {
 constexpr double kTwoPi = 2 * std::numbers::pi;
 /// Steps on the way of the holes, as part of a straight piece: one that folds is halved.
 constexpr double kLargestStep = 0.5;
+
+/// Loops that would turn by less, in radians, are not twisted.
+constexpr double kTwisted = 0.1;
 
 std::string loop_name(int loop) {
     return "boundary loop " + std::to_string(loop);
@@ -153,6 +158,58 @@ int folded(const Surface& source, const Eigen::VectorXcd& map) {
     return static_cast<int>(distortion(source.operators, map).flipped.size());
 }
 
+/// Loops on their curves, and the harmonic map of the model that belongs to them.
+struct Placement {
+    std::vector<SlidingLoop> loops;
+    BoundaryCondition model;
+    Eigen::VectorXcd harmonic;
+};
+
+Placement place(const Surface& source, const CircleDomainChart& chart, const TargetModel& target,
+                const OntoOptions& options, const Partners& matched) {
+    const auto& loops = source.topology.boundary_loops;
+    Placement result;
+    for (std::size_t l = 0; l < loops.size(); ++l) {
+        const int curve = matched.curves[l];
+        const LoopAngles angles(source, chart, target, options, static_cast<int>(l), curve, matched.rotation);
+        const RoundHole circle = target.circle(curve);
+        const std::vector<double> at = angles.angles();
+        SlidingLoop sliding{static_cast<int>(l), target.domain().curve(curve), {}, angles.held()};
+        for (std::size_t i = 0; i < loops[l].size(); ++i) {
+            result.model.pin(loops[l][i], circle.centre + std::polar(circle.radius, at[i]));
+            const double s = sliding.held[i] ? angles.mark_parameters()[i] : target.parameter(curve, at[i]);
+            sliding.parameters.push_back(
+                i == 0 ? s : sliding.parameters.back() + sliding.curve.ahead(sliding.parameters.back(), s));
+        }
+        result.loops.push_back(std::move(sliding));
+    }
+    result.harmonic = harmonic_map(source, result.model);
+    return result;
+}
+
+/// A map of the model carried to the target.
+SlidingStart started(const Surface& source, const TargetModel& target, const Placement& placed,
+                     const Eigen::VectorXcd& map) {
+    SlidingStart result;
+    result.loops = placed.loops;
+    result.map = target.places(map);
+    for (const SlidingLoop& sliding : result.loops) {
+        const auto& vertices = source.topology.boundary_loops[sliding.loop];
+        for (std::size_t i = 0; i < vertices.size(); ++i)
+            result.map[vertices[i]] = sliding.curve.point(sliding.parameters[i]);
+    }
+    return result;
+}
+
+/// Options whose loops start turned further, if any is to be turned noticeably.
+std::optional<OntoOptions> turned(const OntoOptions& options, const std::vector<double>& turns) {
+    if (std::none_of(turns.begin(), turns.end(), [](double turn) { return std::abs(turn) > kTwisted; })) return {};
+    OntoOptions result = options;
+    result.start_turns.resize(turns.size(), 0);
+    for (std::size_t l = 0; l < turns.size(); ++l) result.start_turns[l] += turns[l];
+    return result;
+}
+
 /// Waypoints in the model.
 std::vector<Waypoint> in_model(const TargetModel& target, const std::vector<Waypoint>& waypoints) {
     std::vector<Waypoint> result = waypoints;
@@ -164,44 +221,40 @@ std::vector<Waypoint> in_model(const TargetModel& target, const std::vector<Wayp
 
 SlidingStart sliding_start(const Surface& source, const CircleDomainChart& chart, const TargetModel& target,
                            const OntoOptions& options) {
-    const auto& loops = source.topology.boundary_loops;
     const Partners matched = partners(source, chart, target, options);
     validate(options.marks, source, target.domain(), matched.curves);
-    SlidingStart result;
-    result.curves = matched.curves;
-    result.rotation = matched.rotation;
-    BoundaryCondition model;
-    for (std::size_t l = 0; l < loops.size(); ++l) {
-        const int curve = matched.curves[l];
-        const LoopAngles angles(source, chart, target, options, static_cast<int>(l), curve, matched.rotation);
-        const RoundHole circle = target.circle(curve);
-        const std::vector<double> at = angles.angles();
-        SlidingLoop sliding{static_cast<int>(l), target.domain().curve(curve), {}, angles.held()};
-        for (std::size_t i = 0; i < loops[l].size(); ++i) {
-            model.pin(loops[l][i], circle.centre + std::polar(circle.radius, at[i]));
-            const double s = sliding.held[i] ? angles.mark_parameters()[i] : target.parameter(curve, at[i]);
-            sliding.parameters.push_back(
-                i == 0 ? s : sliding.parameters.back() + sliding.curve.ahead(sliding.parameters.back(), s));
+    Placement placed = place(source, chart, target, options, matched);
+    const int flips = folded(source, placed.harmonic);
+    int factorizations = 1;
+    // Waypoints and marks say how the map is to be twisted.
+    if (flips > 0 && !options.waypoints && options.marks.empty()) {
+        SlidingStart twisted = started(source, target, placed, placed.harmonic);
+        twisted.curves = matched.curves;
+        const Untwisting loops = untwisting(source, target, twisted, options.outer_loop);
+        factorizations += loops.factorizations;
+        if (const auto turns = turned(options, loops.turns)) {
+            placed = place(source, chart, target, *turns, matched);
+            ++factorizations;
         }
-        result.loops.push_back(std::move(sliding));
     }
-
-    Eigen::VectorXcd map = harmonic_map(source, model);
-    result.factorizations = 1;
-    result.flips = folded(source, map);
-    if (options.waypoints || result.flips > 0) {
-        if (options.waypoints) result.path = in_model(target, *options.waypoints);
+    Eigen::VectorXcd map = placed.harmonic;
+    std::vector<Waypoint> path;
+    const bool lead = options.waypoints || folded(source, map) > 0;
+    if (lead) {
+        if (options.waypoints) path = in_model(target, *options.waypoints);
         const Continuation way(source, std::polar(1.0, matched.rotation) * chart.chart.vertices, options.outer_loop,
-                               model, result.path);
+                               placed.model, path);
         const FollowedMap followed = follow(source, way, kLargestStep);
         map = followed.map;
-        result.factorizations += followed.steps;
-        result.led = true;
+        factorizations += followed.steps;
     }
-    result.map = target.places(map);
-    for (const SlidingLoop& sliding : result.loops)
-        for (std::size_t i = 0; i < loops[sliding.loop].size(); ++i)
-            result.map[loops[sliding.loop][i]] = sliding.curve.point(sliding.parameters[i]);
+    SlidingStart result = started(source, target, placed, map);
+    result.curves = matched.curves;
+    result.rotation = matched.rotation;
+    result.path = std::move(path);
+    result.led = lead;
+    result.flips = flips;
+    result.factorizations = factorizations;
     return result;
 }
 

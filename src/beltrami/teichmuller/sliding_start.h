@@ -19,9 +19,10 @@ struct SlidingStart {
 };
 
 /// Loops are matched, the source's circle domain is turned, and every circle goes to its partner evenly (between marks
-/// if there are any). The harmonic map with these values is the start if it has no folds and no way is prescribed;
-/// else the holes are led along their way (continuation.h) in the unit disk of the model, and the result is carried to
-/// the target.
+/// if there are any). The harmonic map with these values is the start if it has no folds and no way is prescribed.
+/// Where it has folds and nothing says how loops are to be turned, they are turned first so that it is not twisted
+/// (untwisting.h). Then the holes are led along their way (continuation.h) in the unit disk of the model, and the
+/// result is carried to the target.
 /// @param chart circle domain of the source
 /// @throw Error bad_boundary, bad_option, not_solved
 SlidingStart sliding_start(const Surface& source, const CircleDomainChart& chart, const TargetModel& target,
