@@ -29,13 +29,14 @@ namespace detail {
 void use_one_blas_thread();
 }
 
-Eigen::MatrixXd gram_lower(const Eigen::MatrixXd& A) {
-    const int n = static_cast<int>(A.cols()), k = static_cast<int>(A.rows());
+Eigen::MatrixXd gram_lower(const Eigen::Ref<const Eigen::MatrixXd>& A) {
+    const int n = static_cast<int>(A.cols()), k = static_cast<int>(A.rows()),
+              stride = static_cast<int>(A.outerStride());
     Eigen::MatrixXd result = Eigen::MatrixXd::Zero(n, n);
     if (n == 0 || k == 0) return result;
     detail::use_one_blas_thread();
     const double one = 1, zero = 0;
-    dsyrk_("L", "T", &n, &k, &one, A.data(), &k, &zero, result.data(), &n);
+    dsyrk_("L", "T", &n, &k, &one, A.data(), &stride, &zero, result.data(), &n);
     return result;
 }
 

@@ -7,6 +7,7 @@
 
 #include <beltrami/differentials/chart_grid.h>
 #include <beltrami/linear/dense.h>
+#include <beltrami/mesh/parallel.h>
 
 namespace beltrami {
 
@@ -22,6 +23,8 @@ constexpr double kClusterSlope = 0.6, kHoleClusterSlope = 0.25;
 constexpr double kSmallestCluster = 1e-5;
 /// (δ/s)² below which the second kind of Hessian row is left out.
 constexpr double kNearZero = 1e-3;
+/// Columns worked through at a time.
+constexpr int kColumnsPerChunk = 8;
 
 /// √(|φ|² + δ²), without the care that std::abs takes of overflow.
 Eigen::VectorXd sizes_of(const Eigen::VectorXcd& phi, double delta) {
@@ -88,8 +91,9 @@ class OwnNorm final : public DualNorm {
 
 /// The Hessian Σ w/s (Im(eφ_i) Im(eφ_j) + (δ/s)² Re(eφ_i) Re(eφ_j)) with s = √(|φ|²+δ²), e = conj(φ)/|φ|, in the lower
 /// triangle: a product of scaled rows. The second kind of row matters only near zeros of φ.
+/// @param storage of the rows: large, and kept from one call to the next
 Eigen::MatrixXd dual_hessian(const DualProblem& problem, const RealView& view, const Eigen::VectorXcd& phi,
-                             double delta) {
+                             double delta, Eigen::VectorXd& storage) {
     const Eigen::Index m = problem.basis.cols(), points = problem.basis.rows();
     Eigen::VectorXd sizes = sizes_of(phi, delta);
     sizes = sizes.cwiseMax(kFloor * sizes.maxCoeff());
@@ -102,18 +106,24 @@ Eigen::MatrixXd dual_hessian(const DualProblem& problem, const RealView& view, c
         e[i] = size > 0 ? std::conj(phi[i]) / size : 1.0;
     }
     e = e.cwiseProduct(problem.weights.cwiseQuotient(sizes).cwiseSqrt().cast<Complex>());
-    Eigen::MatrixXd rows(points + static_cast<Eigen::Index>(near_zeros.size()), view.complex ? 2 * m : m);
-    for (Eigen::Index j = 0; j < m; ++j) {
-        const Eigen::VectorXcd column = e.cwiseProduct(problem.basis.col(j));
-        rows.col(j).head(points) = column.imag();
-        if (view.complex) rows.col(m + j).head(points) = column.real();  // of iφ_j
-        for (std::size_t i = 0; i < near_zeros.size(); ++i) {
-            const auto row = points + static_cast<Eigen::Index>(i);
-            const double ratio = delta / sizes[near_zeros[i]];
-            rows(row, j) = ratio * column[near_zeros[i]].real();
-            if (view.complex) rows(row, m + j) = -ratio * column[near_zeros[i]].imag();
+    const Eigen::Index height = points + static_cast<Eigen::Index>(near_zeros.size()), width = view.complex ? 2 * m : m;
+    if (storage.size() < height * width) storage.resize(2 * points * width);
+    Eigen::Map<Eigen::MatrixXd> rows(storage.data(), height, width);
+    const auto fill = [&](int first, int last) {
+        Eigen::VectorXcd column(points);
+        for (Eigen::Index j = first; j < last; ++j) {
+            column = e.cwiseProduct(problem.basis.col(j));
+            rows.col(j).head(points) = column.imag();
+            if (view.complex) rows.col(m + j).head(points) = column.real();  // of iφ_j
+            for (std::size_t i = 0; i < near_zeros.size(); ++i) {
+                const auto row = points + static_cast<Eigen::Index>(i);
+                const double ratio = delta / sizes[near_zeros[i]];
+                rows(row, j) = ratio * column[near_zeros[i]].real();
+                if (view.complex) rows(row, m + j) = -ratio * column[near_zeros[i]].imag();
+            }
         }
-    }
+    };
+    parallel_for(0, static_cast<int>(m), fill, kColumnsPerChunk);
     return gram_lower(rows);
 }
 
@@ -144,11 +154,12 @@ DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& star
     const double total = problem.weights.sum();
     const double delta = total > 0 ? problem.rounding * problem.weights.dot(coarse_phi.cwiseAbs()) / total : 0.0;
     double norm = fine.norm(phi, delta);
+    Eigen::VectorXd storage;  // of dual_hessian
     // The hyperplane of a single real function is a point.
     solution.converged = x.size() == 1;
     for (; x.size() > 1 && solution.newton_steps < options.max_steps; ++solution.newton_steps) {
         const Eigen::VectorXd gradient = view.covector(fine.gradient(phi, delta));
-        Eigen::MatrixXd hessian = dual_hessian(problem, view, coarse_phi, delta);
+        Eigen::MatrixXd hessian = dual_hessian(problem, view, coarse_phi, delta, storage);
         // c itself is a null direction (N is homogeneous of degree one). On the hyperplane a multiple of p pᵀ changes
         // nothing and makes the matrix definite; the tiny shift is for functions that no quadrature point sees.
         const double mean_diagonal = hessian.trace() / static_cast<double>(x.size());
