@@ -132,13 +132,18 @@ class Matcher {
         return fit(form);
     }
 
+    /// Σ sinh²((ρ − ρ′)/2) of the pairs so far.
+    double radii_of(const std::vector<int>& partner) const {
+        double sum = 0;
+        for (std::size_t i = 0; i < partner.size(); ++i) sum += radius_gap(i, partner[i]);
+        return sum;
+    }
+
     /// Takes the pairs with their best move, if better than what is known.
     void offer(const std::vector<int>& partner) {
         const Fit found = fit_of(partner);
-        double radii = 0;
-        for (std::size_t i = 0; i < partner.size(); ++i)
-            radii += std::pow(source_[i].radius - target_[partner[i]].radius, 2);
-        const std::array<double, 4> rank{found.cost / size_, radii, std::abs(found.move.centre),
+        const double radii = radii_of(partner);
+        const std::array<double, 4> rank{(found.cost + radii) / size_, radii, std::abs(found.move.centre),
                                          std::abs(found.move.rotation)};
         if (!best_.partner.empty()) {
             std::size_t k = 0;
@@ -160,7 +165,7 @@ class Matcher {
         std::vector<std::vector<double>> cost(source_.size(), std::vector<double>(target_.size()));
         for (std::size_t i = 0; i < source_.size(); ++i)
             for (std::size_t j = 0; j < target_.size(); ++j)
-                cost[i][j] = hyperbolic_gap(move(source_[i].centre), target_[j].centre);
+                cost[i][j] = hyperbolic_gap(move(source_[i].centre), target_[j].centre) + radius_gap(i, j);
         return cheapest_assignment(cost);
     }
 
@@ -208,13 +213,18 @@ class Matcher {
     /// Differences of costs, radii, centres and rotations that count as none.
     static constexpr std::array<double, 4> kTies{kEqual, kEqual, 1e-6, 1e-6};
 
+    double radius_gap(std::size_t i, std::size_t j) const {
+        return std::pow(std::sinh(0.5 * (source_[i].radius - target_[j].radius)), 2);
+    }
+
     void offer_from(std::vector<int>& partner, std::vector<char>& taken) {
         const std::size_t n = source_.size();
         if (partner.size() == n) {
             offer(partner);
             return;
         }
-        if (!best_.partner.empty() && partner.size() > 1 && fit_of(partner).cost / size_ > rank_[0] + 2 * kEqual)
+        if (!best_.partner.empty() && partner.size() > 1 &&
+            (fit_of(partner).cost + radii_of(partner)) / size_ > rank_[0] + 2 * kEqual)
             return;
         for (std::size_t j = 0; j < n; ++j) {
             if (taken[j]) continue;

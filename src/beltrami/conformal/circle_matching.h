@@ -39,9 +39,10 @@ DiskMoebius best_move(std::span<const PlacePair> pairs);
 /// The same among rotations, least Σ |e^{iα} z − w|².
 DiskMoebius best_rotation(std::span<const PlacePair> pairs);
 
-/// The correspondence π and Möbius map T that minimise Σ sinh²(d(T c_i, c′_π(i))/2) over the hyperbolic centres of the
-/// holes: it does not depend on where Möbius maps have put either domain. Of equal ones that with the more alike
-/// hyperbolic radii (two holes can always be exchanged), then the one that moves the centre least, then the one of
+/// The correspondence π and Möbius map T that minimise Σ sinh²(d(T c_i, c′_π(i))/2) + sinh²((ρ_i − ρ′_π(i))/2) over the
+/// hyperbolic centres and radii of the holes: it does not depend on where Möbius maps have put either domain. (Centres
+/// alone would not do: two holes can always be exchanged, three nearly.) Of equal ones that with the more alike radii,
+/// then the one that moves the centre least, then the one of
 /// the smallest rotation. Exact for up to eight holes; for more, the best of the assignments (Kuhn 1955, "Hungarian")
 /// from the maps that bring two far source holes to two target holes as far from each other, each improved
 /// alternately. By size, only T is chosen by position.
