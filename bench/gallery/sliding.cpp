@@ -100,6 +100,28 @@ std::vector<std::string> onto_row(const std::string& first, const Surface& sourc
             number(solved.seconds, 2)};
 }
 
+std::vector<Curve> correspondences(const Surface& source, const TargetDomain& target, const ExtremalMapOnto& map) {
+    std::vector<Curve> result;
+    for (const LoopOnto& onto : map.loops) {
+        const std::vector<double>&lengths = source.boundary_edge_lengths[onto.loop], &parameters = onto.parameters;
+        const std::size_t n = lengths.size();
+        if (parameters.size() != n) continue;
+        double whole = 0;
+        for (const double length : lengths) whole += length;
+        Curve curve{onto.curve == 0 ? "outer curve" : "hole " + std::to_string(onto.curve), {}, {}};
+        double at = 0;
+        for (std::size_t i = 0; i < n; ++i) {
+            curve.x.push_back(at / whole);
+            curve.y.push_back((parameters[i] - parameters[0]) / target.curve(onto.curve).length());
+            at += lengths[i];
+        }
+        curve.x.push_back(1);
+        curve.y.push_back(1);
+        result.push_back(std::move(curve));
+    }
+    return result;
+}
+
 SolvedOnto OntoExample::run(Output& output, Figure& figure, Table& table, const Surface& source,
                             const TargetDomain& target, const OntoOptions& options) const {
     SolvedOnto solved = solve_onto(source, target, options);
@@ -112,6 +134,8 @@ SolvedOnto OntoExample::run(Output& output, Figure& figure, Table& table, const 
     picture.panels.push_back(circles_panel(data, "image", "image", circles, segments));
     picture.panels.push_back(map_panel(data, "|μ|", shown));
     picture.panels.push_back(histogram_panel({{"", data}}, "", solved.all->k, shown));
+    picture.panels.push_back(curves_panel(correspondences(source, target, *solved.all), "boundary correspondence",
+                                          "arc length, source", "arc length, image", false));
     figure.pictures.push_back(std::move(picture));
     return solved;
 }

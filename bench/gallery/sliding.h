@@ -44,8 +44,11 @@ std::vector<std::string> onto_head(const std::string& first);
 std::vector<std::string> onto_row(const std::string& first, const Surface& source, const std::string& known,
                                   const SolvedOnto& solved);
 
+/// Where every loop's vertices lie, as parts of the arc length from the first one on: of the loop and of its curve.
+std::vector<Curve> correspondences(const Surface& source, const TargetDomain& target, const ExtremalMapOnto& map);
+
 /// A planar source and its target: solves, adds a row to @p table and a picture (circles on source and image, |μ|,
-/// histogram) to the figure.
+/// histogram, boundary correspondence) to the figure.
 struct OntoExample {
     std::string name;  ///< of picture and row
     std::string caption;
