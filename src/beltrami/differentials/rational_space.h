@@ -3,6 +3,7 @@
 #include <vector>
 
 #include <beltrami/differentials/differential_space.h>
+#include <beltrami/differentials/pole_sums.h>
 #include <beltrami/differentials/singularities.h>
 
 namespace beltrami {
@@ -34,16 +35,12 @@ class RationalSpace final : public DifferentialSpace {
     Eigen::MatrixXcd generators(const ChartPoints& points) const override;
     const Eigen::MatrixXcd* transform() const override { return &transform_; }
     Eigen::VectorXcd combination(const ChartPoints& points, const Eigen::VectorXcd& coefficients) const override;
+    Eigen::MatrixXcd pair(const ChartPoints& points, const Eigen::MatrixXcd& weights) const override;
+    bool quick() const override { return true; }
     std::unique_ptr<DifferentialSpace> refined() const override;
     bool preliminary() const override { return !with_corners_ && !family_->singularities.corners.empty(); }
 
   private:
-    /// scale^power/(z − centre)^power; power < 0: the polynomial ((z − centre)/scale)^(−power).
-    struct Generator {
-        Complex centre;
-        double scale;
-        int power;
-    };
     struct Family {
         Singularities singularities;
         Quadrature quadrature;
@@ -52,16 +49,16 @@ class RationalSpace final : public DifferentialSpace {
 
     explicit RationalSpace(std::shared_ptr<const Family> family) : family_(std::move(family)) {}
     /// Appends functions and orthonormalises them against those that are there.
-    void add(std::vector<Generator> more);
-    bool follows(std::size_t generator) const;
-    void add_corner_poles();
-    /// Polynomials up to a degree, powers at the holes.
-    void raise(int degree, int power);
+    void add(const std::vector<Pole>& more);
+    /// The poles at the corners, which count as taken.
+    std::vector<Pole> take_corner_poles();
+    /// Polynomials up to a degree, powers at the holes: those that are new, which count as taken.
+    std::vector<Pole> raise(int degree, int power);
 
     std::shared_ptr<const Family> family_;
     int degree_ = -1, power_ = 0;
     bool with_corners_ = false;
-    std::vector<Generator> generators_;
+    std::vector<Pole> generators_;
     Eigen::MatrixXcd transform_;  ///< columns of earlier functions stay as they are
 };
 

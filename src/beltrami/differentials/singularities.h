@@ -30,6 +30,7 @@ struct Singularities {
     std::vector<Complex> pins;  ///< interior points with a prescribed image: φ may have a simple pole
 
     bool empty() const { return holes.empty() && corners.empty() && pins.empty(); }
+    bool only_corners() const { return holes.empty() && pins.empty() && !corners.empty(); }
 };
 
 /// The size of quadrature cells: a largest one, smaller near singularities, on whose distance functions vary.

@@ -12,6 +12,7 @@
 #include <beltrami/linear/supernodal_factor.h>
 #include <beltrami/linear/symmetric_solver.h>
 #include <beltrami/mesh/error.h>
+#include <beltrami/mesh/parallel.h>
 
 extern "C" void dsyrk_(const char* uplo, const char* trans, const int* n, const int* k, const double* alpha,
                        const double* a, const int* lda, const double* beta, double* c, const int* ldc);
@@ -29,14 +30,28 @@ namespace detail {
 void use_one_blas_thread();
 }
 
+namespace {
+
+/// Rows that a thread takes at once.
+constexpr int kRows = 512;
+
+}  // namespace
+
 Eigen::MatrixXd gram_lower(const Eigen::MatrixXd& A) {
     const int n = static_cast<int>(A.cols()), k = static_cast<int>(A.rows());
-    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(n, n);
-    if (n == 0 || k == 0) return result;
+    const Eigen::MatrixXd nothing = Eigen::MatrixXd::Zero(n, n);
+    if (n == 0 || k == 0) return nothing;
     detail::use_one_blas_thread();
-    const double one = 1, zero = 0;
-    dsyrk_("L", "T", &n, &k, &one, A.data(), &k, &zero, result.data(), &n);
-    return result;
+    return parallel_sum<Eigen::MatrixXd>(
+        k, nothing,
+        [&](int first, int last) {
+            Eigen::MatrixXd part = nothing;
+            const int count = last - first;
+            const double one = 1, zero = 0;
+            dsyrk_("L", "T", &n, &count, &one, A.data() + first, &k, &zero, part.data(), &n);
+            return part;
+        },
+        kRows);
 }
 
 Eigen::MatrixXcd complex_product(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& B) {
@@ -44,19 +59,33 @@ Eigen::MatrixXcd complex_product(const Eigen::MatrixXcd& A, const Eigen::MatrixX
     Eigen::MatrixXcd result = Eigen::MatrixXcd::Zero(m, n);
     if (m == 0 || n == 0 || k == 0) return result;
     detail::use_one_blas_thread();
-    const std::complex<double> one = 1, zero = 0;
-    zgemm_("N", "N", &m, &n, &k, &one, A.data(), &m, B.data(), &k, &zero, result.data(), &m);
+    parallel_for(
+        0, m,
+        [&](int first, int last) {
+            const int count = last - first;
+            const std::complex<double> one = 1, zero = 0;
+            zgemm_("N", "N", &count, &n, &k, &one, A.data() + first, &m, B.data(), &k, &zero, result.data() + first,
+                   &m);
+        },
+        kRows);
     return result;
 }
 
 Eigen::MatrixXcd complex_gram_upper(const Eigen::MatrixXcd& A) {
     const int n = static_cast<int>(A.cols()), k = static_cast<int>(A.rows());
-    Eigen::MatrixXcd result = Eigen::MatrixXcd::Zero(n, n);
-    if (n == 0 || k == 0) return result;
+    const Eigen::MatrixXcd nothing = Eigen::MatrixXcd::Zero(n, n);
+    if (n == 0 || k == 0) return nothing;
     detail::use_one_blas_thread();
-    const double one = 1, zero = 0;
-    zherk_("U", "C", &n, &k, &one, A.data(), &k, &zero, result.data(), &n);
-    return result;
+    return parallel_sum<Eigen::MatrixXcd>(
+        k, nothing,
+        [&](int first, int last) {
+            Eigen::MatrixXcd part = nothing;
+            const int count = last - first;
+            const double one = 1, zero = 0;
+            zherk_("U", "C", &n, &count, &one, A.data() + first, &k, &zero, part.data(), &n);
+            return part;
+        },
+        kRows);
 }
 
 const char* linear_backend() {

@@ -14,7 +14,7 @@ constexpr double kClip = 0.95;
 /// δ of the rounded |φ| as part of its mean, per edge length of a sample in a domain of diameter 2: about |φ| at a
 /// fraction of an edge from a simple zero.
 constexpr double kRounding = 0.4;
-/// Without a start, Newton's method begins with these values of δ.
+/// Without a start, Newton's method begins with these values of δ, on the clusters.
 constexpr std::array kColdRoundings{0.3, 0.1, 0.03};
 /// … and ends each of them at steps of this length.
 constexpr double kColdStep = 0.05;
@@ -41,10 +41,19 @@ CoefficientStep::CoefficientStep(const Surface& source, const Chart& chart, cons
 
 void CoefficientStep::set_space(const DifferentialSpace& space) {
     sampled_.set(space);
+    last_coefficients_.resize(0);
     problem_.basis = space.tabulated() ? means_over_clusters(*space.tabulated(), clusters_, chart_)
                                        : space.evaluate(clusters_.points);
     if (space.tabulated() && space.transform()) problem_.basis = complex_product(problem_.basis, *space.transform());
     problem_.complex_coefficients = space.complex_coefficients();
+}
+
+const Eigen::VectorXcd& CoefficientStep::values(const Eigen::VectorXcd& coefficients) {
+    if (coefficients.size() != last_coefficients_.size() || coefficients != last_coefficients_) {
+        last_values_ = sampled_.combination(coefficients);
+        last_coefficients_ = coefficients;
+    }
+    return last_values_;
 }
 
 namespace {
@@ -53,9 +62,17 @@ namespace {
 class SampleNorm final : public DualNorm {
   public:
     /// @param weights #S A a, 0 where the chart excludes the sample
-    SampleNorm(const SampledSpace& space, const Chart& chart, const Eigen::VectorXd& weights)
-        : space_(space), chart_(chart), weights_(weights) {}
-    Eigen::VectorXcd values(const Eigen::VectorXcd& c) const override { return space_.combination(c); }
+    /// @param known, values coefficients of which the values are known
+    SampleNorm(const SampledSpace& space, const Chart& chart, const Eigen::VectorXd& weights,
+               const Eigen::VectorXcd& known, const Eigen::VectorXcd& values)
+        : space_(space), chart_(chart), weights_(weights), known_(known), values_(values) {}
+    Eigen::VectorXcd values(const Eigen::VectorXcd& c) const override {
+        if (c.size() == known_.size() && c.size() > 0) {
+            const double factor = c.norm() / known_.norm();
+            if ((c - factor * known_).norm() < 1e-14 * c.norm()) return factor * values_;
+        }
+        return space_.combination(c);
+    }
     double norm(const Eigen::VectorXcd& phi, double delta) const override {
         return parallel_sum<double>(static_cast<int>(phi.size()), 0.0, [&](int first, int last) {
             double sum = 0;
@@ -82,6 +99,7 @@ class SampleNorm final : public DualNorm {
     const SampledSpace& space_;
     const Chart& chart_;
     const Eigen::VectorXd& weights_;
+    const Eigen::VectorXcd &known_, &values_;
 };
 
 }  // namespace
@@ -101,12 +119,12 @@ CoefficientStep::Result CoefficientStep::solve(const Eigen::VectorXcd& mu, const
         problem_.weights[clusters_.cluster[s]] += clusters_.squared[s] * (1 + square) / (1 - square);
     }
     problem_.pairing = sampled_.pair(pairing_weight);
-    const SampleNorm norm(sampled_, chart_, norm_weight);
+    const SampleNorm norm(sampled_, chart_, norm_weight, last_coefficients_, last_values_);
     Eigen::VectorXcd at = start;
     if (at.size() == 0)
         for (const double rounding : kColdRoundings) {
             problem_.rounding = rounding;
-            at = solve_dual(problem_, at, {.step = kColdStep, .norm = &norm}).coefficients;
+            at = solve_dual(problem_, at, {.step = kColdStep}).coefficients;
         }
     problem_.rounding = std::max(least_rounding_, kRounding * edge_);
     const DualSolution dual = solve_dual(problem_, at, {.max_steps = newton_steps, .step = step, .norm = &norm});
@@ -119,11 +137,13 @@ CoefficientStep::Result CoefficientStep::solve(const Eigen::VectorXcd& mu, const
     result.phi = length > 0 ? Eigen::VectorXcd(dual.phi / length) : dual.phi;
     const double size = norm.norm(result.phi, 0);
     if (!(size > 0)) return result;
+    last_coefficients_ = result.direction;
+    last_values_ = result.phi;
     const double pairing = dual.pairing / length;
     result.k = dilatation_of_pairing(2 * pairing / size);
     double plain = 0;
     for (int s = 0; s < samples; ++s)
-        if (!chart_.excluded[s]) plain += source_.operators.weights[s] * std::abs(result.phi[s]);
+        if (!chart_.excluded[s]) plain += source_.operators.weights[s] * std::sqrt(std::norm(result.phi[s]));
     result.merit = plain / (size - 2 * pairing);
     return result;
 }

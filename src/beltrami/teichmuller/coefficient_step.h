@@ -35,7 +35,7 @@ class CoefficientStep {
     void set_least_rounding(double part) { least_rounding_ = part; }
 
     /// φ of coefficients (#S).
-    Eigen::VectorXcd values(const Eigen::VectorXcd& coefficients) const { return sampled_.combination(coefficients); }
+    const Eigen::VectorXcd& values(const Eigen::VectorXcd& coefficients);
 
     /// @param mu    #S coefficients of the map; those of flipped or nearly flipped samples are held at |μ| = 0.95
     /// @param start direction to start from, padded by zeros; empty at the very beginning
@@ -47,6 +47,7 @@ class CoefficientStep {
     const Surface& source_;
     const Chart& chart_;
     SampledSpace sampled_;
+    Eigen::VectorXcd last_coefficients_, last_values_;  ///< of values()
     SampleClusters clusters_;
     DualProblem problem_;
     double least_rounding_ = 0;

@@ -7,6 +7,7 @@
 
 #include <beltrami/differentials/chart_grid.h>
 #include <beltrami/linear/dense.h>
+#include <beltrami/mesh/parallel.h>
 
 namespace beltrami {
 
@@ -20,8 +21,25 @@ constexpr double kGradientTolerance = 1e-12;
 constexpr double kClusterSlope = 0.6, kHoleClusterSlope = 0.25;
 /// No cluster is smaller, in a domain of diameter 2.
 constexpr double kSmallestCluster = 1e-5;
-/// (δ/s)² below which the second kind of Hessian row is left out.
-constexpr double kNearZero = 1e-3;
+/// (δ/s)² and (r/s)² below which the second kind of Hessian row is left out.
+constexpr double kNearZero = 1e-3, kNearReach = 0.05;
+/// How far φ is expected to move at a point: as part of |φ| in the first step, then of the step before.
+constexpr double kFirstReach = 0.6, kReach = 0.7;
+/// A step is halved at most so often, until the norm falls by this part of what the slope promises.
+constexpr int kHalvings = 40;
+constexpr double kDescent = 1e-4;
+/// Newton steps on the coarse norm before the fine one is looked at again; they end at this part of the way made.
+constexpr int kInnerSteps = 8;
+constexpr double kInnerFraction = 0.15;
+/// The coarse norm is trusted no longer once less than this part of its step is taken.
+constexpr double kTrusted = 0.3;
+/// The change that a second look is expected to make, as part of the first.
+constexpr double kFirstRate = 0.2;
+/// Gradients are exact where the norm is flat to rounding: so many rounds more, down to such a change.
+constexpr int kFlatRounds = 3;
+constexpr double kExact = 1e-11;
+/// Rows of the Hessian's product that a thread takes at once.
+constexpr int kHessianRows = 512;
 
 /// √(|φ|² + δ²), without the care that std::abs takes of overflow.
 Eigen::VectorXd sizes_of(const Eigen::VectorXcd& phi, double delta) {
@@ -86,36 +104,142 @@ class OwnNorm final : public DualNorm {
     const DualProblem& problem_;
 };
 
-/// The Hessian Σ w/s (Im(eφ_i) Im(eφ_j) + (δ/s)² Re(eφ_i) Re(eφ_j)) with s = √(|φ|²+δ²), e = conj(φ)/|φ|, in the lower
-/// triangle: a product of scaled rows. The second kind of row matters only near zeros of φ.
+/// The Hessian Σ w/s (Im(eφ_i) Im(eφ_j) + (ρ/s)² Re(eφ_i) Re(eφ_j)) with s = √(|φ|²+ρ²), e = conj(φ)/|φ|, in the lower
+/// triangle: a product of scaled rows. The second kind of row matters only where φ is small.
+///
+/// ρ² = δ² + r² with r the length by which φ is expected to move at the point. The Hessian of |φ| itself (r = 0) knows
+/// nothing about the far side of a zero, and steps overshoot wherever they are as long as φ is large; that of the
+/// rounded norm does, and is as good where they are short.
 Eigen::MatrixXd dual_hessian(const DualProblem& problem, const RealView& view, const Eigen::VectorXcd& phi,
-                             double delta) {
+                             double delta, const Eigen::VectorXd& reach) {
     const Eigen::Index m = problem.basis.cols(), points = problem.basis.rows();
-    Eigen::VectorXd sizes = sizes_of(phi, delta);
+    const Eigen::VectorXd rounding = reach.array().square() + delta * delta;
+    Eigen::VectorXd sizes = (phi.array().abs2() + rounding.array()).sqrt();
     sizes = sizes.cwiseMax(kFloor * sizes.maxCoeff());
-    std::vector<Eigen::Index> near_zeros;
-    for (Eigen::Index i = 0; i < points; ++i)
-        if (delta * delta > kNearZero * sizes[i] * sizes[i]) near_zeros.push_back(i);
+    std::vector<int> second(static_cast<std::size_t>(points), -1);  // row of the second kind in its chunk
     Eigen::VectorXcd e(points);
     for (Eigen::Index i = 0; i < points; ++i) {
-        const double size = std::sqrt(std::norm(phi[i]));
-        e[i] = size > 0 ? std::conj(phi[i]) / size : 1.0;
+        const double size = std::sqrt(std::norm(phi[i])), square = sizes[i] * sizes[i];
+        e[i] = (size > 0 ? std::conj(phi[i]) / size : 1.0) * std::sqrt(problem.weights[i] / sizes[i]);
+        if (delta * delta > kNearZero * square || reach[i] * reach[i] > kNearReach * square) second[i] = 0;
     }
-    e = e.cwiseProduct(problem.weights.cwiseQuotient(sizes).cwiseSqrt().cast<Complex>());
-    Eigen::MatrixXd rows(points + static_cast<Eigen::Index>(near_zeros.size()), view.complex ? 2 * m : m);
-    for (Eigen::Index j = 0; j < m; ++j) {
-        const Eigen::VectorXcd column = e.cwiseProduct(problem.basis.col(j));
-        rows.col(j).head(points) = column.imag();
-        if (view.complex) rows.col(m + j).head(points) = column.real();  // of iφ_j
-        for (std::size_t i = 0; i < near_zeros.size(); ++i) {
-            const auto row = points + static_cast<Eigen::Index>(i);
-            const double ratio = delta / sizes[near_zeros[i]];
-            rows(row, j) = ratio * column[near_zeros[i]].real();
-            if (view.complex) rows(row, m + j) = -ratio * column[near_zeros[i]].imag();
-        }
-    }
-    return gram_lower(rows);
+    const Eigen::Index n = view.complex ? 2 * m : m;
+    const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(n, n);
+    return parallel_sum<Eigen::MatrixXd>(
+        static_cast<int>(points), zero,
+        [&](int first, int last) {
+            int count = last - first;
+            for (int i = first; i < last; ++i)
+                if (second[i] >= 0) second[i] = count++;
+            Eigen::MatrixXd rows(count, n);
+            for (Eigen::Index j = 0; j < m; ++j) {
+                const Complex* const column = &problem.basis(0, j);
+                double* const to = &rows(0, j);
+                double* const to_imaginary = view.complex ? &rows(0, m + j) : nullptr;  // of iφ_j
+                for (int i = first; i < last; ++i) {
+                    const double re = e[i].real() * column[i].real() - e[i].imag() * column[i].imag(),
+                                 im = e[i].real() * column[i].imag() + e[i].imag() * column[i].real();
+                    to[i - first] = im;
+                    if (to_imaginary) to_imaginary[i - first] = re;
+                    if (second[i] < 0) continue;
+                    const double ratio = std::sqrt(rounding[i]) / sizes[i];
+                    to[second[i]] = ratio * re;
+                    if (to_imaginary) to_imaginary[second[i]] = -ratio * im;
+                }
+            }
+            return gram_lower(rows);
+        },
+        kHessianRows);
 }
+
+/// The norm on the points of the problem with a linear term, Σ w √(|φ_x|²+δ²) + t·x, to be minimised on the hyperplane
+/// p·x = const. A tilt t makes its gradient that of another norm at one place.
+class TiltedNorm {
+  public:
+    TiltedNorm(const DualProblem& problem, const RealView& view, const Eigen::VectorXd& p, double delta)
+        : problem_(problem), view_(view), p_(p), delta_(delta) {}
+
+    Eigen::VectorXd gradient(const Eigen::VectorXcd& phi) const {
+        return view_.covector(dual_gradient(problem_.basis, problem_.weights, phi, delta_));
+    }
+
+    struct End {
+        int steps = 0;
+        bool converged = false;
+    };
+    /// Newton's method with backtracking from @p x.
+    /// @param phi       of x at the points; moves with it
+    /// @param first_reach by what part of itself φ is expected to move
+    /// @param step      it ends after a step shorter than this part of x
+    /// @param fraction  … or than this part of the way made so far
+    End descend(Eigen::VectorXd& x, Eigen::VectorXcd& phi, const Eigen::VectorXd& tilt, double first_reach, double step,
+                double fraction, int max_steps) const {
+        End end;
+        const Eigen::VectorXd start = x;
+        Eigen::VectorXd reach = first_reach * phi.cwiseAbs();
+        double value = problem_.weights.dot(sizes_of(phi, delta_)) + tilt.dot(x);
+        while (end.steps < max_steps) {
+            const Eigen::VectorXd slope_by = gradient(phi) + tilt;
+            const Eigen::VectorXd direction = newton_step(slope_by, phi, reach);
+            if (direction.size() == 0) break;
+            const double slope = slope_by.dot(direction), scale = std::abs(value);
+            if (!(slope < -kGradientTolerance * kGradientTolerance * scale)) {
+                end.converged = slope > -kGradientTolerance * scale;
+                break;
+            }
+            const Eigen::VectorXcd phi_step = problem_.basis * view_.unpack(direction);
+            // At the level of rounding no step need descend.
+            const bool flat = -slope < kGradientTolerance * scale;
+            double length = 1;
+            bool accepted = false;
+            for (int halving = 0; halving < kHalvings && !accepted; ++halving) {
+                const Eigen::VectorXcd trial = phi + length * phi_step;
+                const double trial_value =
+                    problem_.weights.dot(sizes_of(trial, delta_)) + tilt.dot(x) + length * tilt.dot(direction);
+                accepted = trial_value <= value + (flat ? kGradientTolerance * scale : kDescent * length * slope);
+                if (accepted) {
+                    phi = trial;
+                    value = trial_value;
+                } else {
+                    length *= 0.5;
+                }
+            }
+            if (accepted) {
+                x += length * direction;
+                reach = kReach * length * phi_step.cwiseAbs();
+                ++end.steps;
+            }
+            const double moved = length * direction.norm();
+            if (flat || (accepted && (moved < step * x.norm() || moved < fraction * (x - start).norm()))) {
+                end.converged = true;
+                break;
+            }
+            if (!accepted) break;
+        }
+        return end;
+    }
+
+  private:
+    /// @return empty if the system cannot be solved
+    Eigen::VectorXd newton_step(const Eigen::VectorXd& gradient, const Eigen::VectorXcd& phi,
+                                const Eigen::VectorXd& reach) const {
+        Eigen::MatrixXd hessian = dual_hessian(problem_, view_, phi, delta_, reach);
+        // x itself is a null direction (the norm is homogeneous of degree one). On the hyperplane a multiple of p pᵀ
+        // changes nothing and makes the matrix definite; the tiny shift is for functions that no quadrature point sees.
+        const double mean_diagonal = hessian.trace() / static_cast<double>(p_.size());
+        hessian.selfadjointView<Eigen::Lower>().rankUpdate(p_, mean_diagonal / p_.squaredNorm());
+        hessian.diagonal().array() += 1e-14 * mean_diagonal;
+        const Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> cholesky(hessian);
+        if (cholesky.info() != Eigen::Success) return {};
+        const Eigen::VectorXd by_gradient = cholesky.solve(gradient), by_constraint = cholesky.solve(p_);
+        return p_.dot(by_gradient) / p_.dot(by_constraint) * by_constraint - by_gradient;
+    }
+
+    const DualProblem& problem_;
+    const RealView& view_;
+    const Eigen::VectorXd& p_;
+    double delta_;
+};
 
 }  // namespace
 
@@ -140,62 +264,80 @@ DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& star
         along = p.squaredNorm();
     }
     Eigen::VectorXd x = view.pack(c) / along;
-    Eigen::VectorXcd coarse_phi = problem.basis * view.unpack(x), phi = fine.values(view.unpack(x));
+    Eigen::VectorXcd coarse_phi = problem.basis * view.unpack(x);
     const double total = problem.weights.sum();
     const double delta = total > 0 ? problem.rounding * problem.weights.dot(coarse_phi.cwiseAbs()) / total : 0.0;
-    double norm = fine.norm(phi, delta);
-    // The hyperplane of a single real function is a point.
-    solution.converged = x.size() == 1;
-    for (; x.size() > 1 && solution.newton_steps < options.max_steps; ++solution.newton_steps) {
-        const Eigen::VectorXd gradient = view.covector(fine.gradient(phi, delta));
-        Eigen::MatrixXd hessian = dual_hessian(problem, view, coarse_phi, delta);
-        // c itself is a null direction (N is homogeneous of degree one). On the hyperplane a multiple of p pᵀ changes
-        // nothing and makes the matrix definite; the tiny shift is for functions that no quadrature point sees.
-        const double mean_diagonal = hessian.trace() / static_cast<double>(x.size());
-        hessian.selfadjointView<Eigen::Lower>().rankUpdate(p, mean_diagonal / p.squaredNorm());
-        hessian.diagonal().array() += 1e-14 * mean_diagonal;
-        const Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> cholesky(hessian);
-        if (cholesky.info() != Eigen::Success) break;
-        const Eigen::VectorXd by_gradient = cholesky.solve(gradient), by_constraint = cholesky.solve(p);
-        const double multiplier = p.dot(by_gradient) / p.dot(by_constraint);
-        const Eigen::VectorXd step = multiplier * by_constraint - by_gradient;
-        const double slope = gradient.dot(step);
-        if (!(slope < -kGradientTolerance * kGradientTolerance * norm)) {
-            solution.converged = slope > -kGradientTolerance * norm;
-            break;
-        }
-
-        const Eigen::VectorXcd phi_step = fine.values(view.unpack(step));
-        double length = 1;
-        bool accepted = false;
-        for (int halving = 0; halving < 40 && !accepted; ++halving) {
-            const Eigen::VectorXcd trial = phi + length * phi_step;
-            const double trial_norm = fine.norm(trial, delta);
-            accepted = trial_norm <= norm + 1e-4 * length * slope;
-            if (accepted) {
-                phi = trial;
-                norm = trial_norm;
-            } else {
-                length *= 0.5;
+    const TiltedNorm coarse(problem, view, p, delta);
+    if (x.size() == 1) {  // the hyperplane of a single real function is a point
+        solution.converged = true;
+        solution.phi = fine.values(view.unpack(x));
+        solution.norm = fine.norm(solution.phi, delta);
+    } else if (!options.norm) {
+        const TiltedNorm::End end = coarse.descend(x, coarse_phi, Eigen::VectorXd::Zero(x.size()), kFirstReach,
+                                                   options.step, 0, options.max_steps);
+        solution.newton_steps = end.steps;
+        solution.converged = end.converged;
+        solution.phi = std::move(coarse_phi);
+        solution.norm = own.norm(solution.phi, delta);
+    } else {
+        // The norm on fewer points, tilted to have the gradient of the other one: its minimum is that of the other one
+        // but for the change of the difference between them.
+        Eigen::VectorXcd phi = fine.values(view.unpack(x));
+        double norm = fine.norm(phi, delta), last_moved = 0;
+        bool trusted = true;
+        int flat_rounds = 0;
+        for (int round = 0; solution.newton_steps < options.max_steps; ++round) {
+            const Eigen::VectorXd gradient = view.covector(fine.gradient(phi, delta));
+            const Eigen::VectorXd tilt = gradient - coarse.gradient(coarse_phi);
+            Eigen::VectorXd next = x;
+            const TiltedNorm::End end = coarse.descend(
+                next, coarse_phi, tilt, round == 0 ? kFirstReach : std::min(kFirstReach, last_moved), options.step,
+                kInnerFraction, std::min(trusted ? kInnerSteps : 1, options.max_steps - solution.newton_steps));
+            solution.newton_steps += end.steps;
+            if (end.steps == 0 && !end.converged) break;
+            const Eigen::VectorXd direction = next - x;
+            const double slope = gradient.dot(direction);
+            if (!(slope < -kGradientTolerance * kGradientTolerance * norm)) {
+                solution.converged = slope > -kGradientTolerance * norm;
+                break;
             }
+            const bool flat = -slope < kGradientTolerance * norm;
+            flat_rounds += flat;
+            const Eigen::VectorXcd phi_next = fine.values(view.unpack(next));
+            double length = 1;
+            bool accepted = false;
+            for (int halving = 0; halving < kHalvings && !accepted; ++halving) {
+                const Eigen::VectorXcd trial =
+                    length < 1 ? Eigen::VectorXcd(phi + length * (phi_next - phi)) : phi_next;
+                const double trial_norm = fine.norm(trial, delta);
+                accepted = trial_norm <= norm + (flat ? kGradientTolerance * norm : kDescent * length * slope);
+                if (accepted) {
+                    phi = trial;
+                    norm = trial_norm;
+                } else {
+                    length *= 0.5;
+                }
+            }
+            if (accepted) x += length * direction;
+            if (length < 1) coarse_phi = problem.basis * view.unpack(x);
+            const double moved = length * direction.norm() / x.norm();
+            // What another round would still change.
+            const double rest = moved * (round == 0 ? kFirstRate : std::min(1.0, moved / last_moved));
+            last_moved = moved;
+            // Functions that the coarse norm hardly sees lead it astray: then step by step.
+            const bool whole = length > kTrusted;
+            trusted = trusted && whole;
+            if (flat_rounds > kFlatRounds || (accepted && whole && rest < std::max(options.step, kExact))) {
+                solution.converged = true;
+                break;
+            }
+            if (!accepted) break;
         }
-        if (accepted) {
-            x += length * step;
-            coarse_phi = problem.basis * view.unpack(x);
-        }
-        // At the level of rounding no step need descend.
-        const bool flat = -slope < kGradientTolerance * norm;
-        if (flat || (accepted && length * step.norm() < options.step * x.norm())) {
-            solution.converged = true;
-            solution.newton_steps += accepted;
-            break;
-        }
-        if (!accepted) break;
+        solution.phi = std::move(phi);
+        solution.norm = norm;
     }
     solution.coefficients = view.unpack(x);
     solution.pairing = p.dot(x);
-    solution.norm = norm;
-    solution.phi = std::move(phi);
     return solution;
 }
 

@@ -50,9 +50,9 @@ constexpr double kUnevenAtSingularities = 0.02, kUneven = 0.1, kUnevenAtAll = 2e
 /// steps.
 constexpr double kRoughTolerance = 0.03;
 constexpr int kRoughIterations = 16;
-constexpr double kRoughRounding = 0.005;
+constexpr double kRoughRounding = 0.005, kRoughStep = 0.05;
 /// Newton step, as part of the whole, to which the c-step is solved after the iteration.
-constexpr double kFinishingStep = 3e-4;
+constexpr double kFinishingStep = 2e-3;
 constexpr int kFinishingSteps = 20;
 /// Mean |μ| from which on a chart is inaccurate.
 constexpr double kInaccurateChart = 0.03;
@@ -60,6 +60,10 @@ constexpr double kInaccurateChart = 0.03;
 /// of them poles in its own coordinates do better.
 constexpr double kSharp = 0.5;
 constexpr int kFewCorners = 12;
+/// Distance from the unit circle of a chart's vertex that lies on it.
+constexpr double kRound = 1e-3;
+/// Width of the bracket, as part of K, from which on poles that were thought needless are needed.
+constexpr double kPolesNeeded = 0.01;
 /// By so much a corner's bound must exceed K.
 constexpr double kCornerMargin = 0.01;
 /// Edges between two corners that are taken at their word.
@@ -141,7 +145,11 @@ struct ExtremalSolver::Implementation {
     std::vector<BoundaryCorner> corners;
     std::vector<LoopPath> paths;  // along which turns are counted
     bool converged = false;
-    int other_factorizations = 0;  // of the chart and the finish
+    int other_factorizations = 0;           // of the chart and the finish
+    int earlier_iterations = 0;             // from a start that was given up
+    bool smooth = true;                     // φ has no singularities
+    std::optional<Singularities> withheld;  // that φ may have but need not
+    bool evened = false, folds_removed = false;
 
     Implementation(const Surface& given, const BoundaryCondition& b, const ExtremalOptions& o)
         : options(o),
@@ -157,11 +165,22 @@ struct ExtremalSolver::Implementation {
         other_factorizations += chart.factorizations;
         warnings.insert(warnings.end(), chart.warnings.begin(), chart.warnings.end());
         Singularities singularities = singularities_of(source, chart, boundary, corners);
-        const bool smooth = singularities.empty();
-        problem.set_chart(std::move(chart), std::move(singularities), options.cluster_count);
+        problem.set_chart(std::move(chart));
+        smooth = singularities.empty();
+        // Corners that only a fine mesh would resolve need no poles; that they do not, the coarse problem shows.
+        if (singularities.only_corners() && has_plain_start() && outline_is_round()) {
+            CoarseStart coarse = coarse_start(source, boundary, problem.chart(), problem.phase(), options);
+            if (coarse.tight) {
+                smooth = true;
+                state = std::move(coarse.state);
+                withheld = std::move(singularities);
+                singularities = {};
+            }
+        }
+        problem.set_singularities(std::move(singularities), options.cluster_count);
         if (source.topology.boundary_loops.size() > 1)
             paths = loop_paths(source, problem.chart().vertices, options.outer_loop);
-        choose_start(smooth);
+        choose_start();
     }
 
     /// Whether enough edges run from a corner to the next ones of its loop for its angles and speeds to mean something:
@@ -201,7 +220,7 @@ struct ExtremalSolver::Implementation {
         return count;
     }
 
-    void choose_start(bool smooth) {
+    void choose_start() {
         map = problem.harmonic();
         if (options.start) {
             if (options.start->size() != source.mesh.vertex_count() - added())
@@ -217,10 +236,20 @@ struct ExtremalSolver::Implementation {
             map = follow(source, Continuation(source, places, options.outer_loop, boundary, *options.waypoints)).map;
         } else if (!options.turns.empty()) {
             map = start_in_class(source, problem.chart().vertices, options.outer_loop, boundary, options.turns).map;
-        } else if (smooth) {
-            state = coarse_start(source, boundary, problem.chart(), problem.phase(), options);
+        } else if (smooth && !state.space) {
+            state = coarse_start(source, boundary, problem.chart(), problem.phase(), options).state;
         }
     }
+
+    /// Whether the chart is that of the round disk.
+    bool outline_is_round() const {
+        if (source.topology.boundary_loops.size() != 1) return false;
+        const auto& loop = source.topology.boundary_loops[0];
+        return std::all_of(loop.begin(), loop.end(),
+                           [&](int v) { return std::abs(std::abs(problem.chart().vertices[v]) - 1) < kRound; });
+    }
+
+    bool has_plain_start() const { return !options.start && !options.waypoints && options.turns.empty(); }
 
     int added() const { return prepared.split ? static_cast<int>(prepared.split->parents.size()) : 0; }
 
@@ -268,10 +297,10 @@ struct ExtremalSolver::Implementation {
             k = step.k;
             return true;
         };
-        EvenDilatation evened = even_dilatation(source, held(), map, step.k, step.phi, update);
-        other_factorizations += evened.factorizations;
-        if (!evened.improved) return false;
-        map = std::move(evened.map);
+        EvenDilatation even = even_dilatation(source, held(), map, step.k, step.phi, update);
+        other_factorizations += even.factorizations;
+        if (!even.improved) return false;
+        map = std::move(even.map);
         return true;
     }
 
@@ -302,16 +331,43 @@ struct ExtremalSolver::Implementation {
 
     /// Of the map, or of the one before it was evened out: evening makes the bounds, as a rule, a little worse.
     SolutionBounds best_bounds(const Distortion& measured) const {
-        const auto lower = [](const ReichStrebel& integrals) { return integrals.valid ? integrals.lower : 1; };
-        const ReichStrebel integrals = integrals_of(measured, step);
-        if (before_evening) {
+        if (before_evening && before_evening->step.merit >= step.merit) {
             const auto& [earlier_map, earlier_step] = *before_evening;
             const Distortion earlier = distortion(source.operators, earlier_map);
-            const ReichStrebel earlier_integrals = integrals_of(earlier, earlier_step);
-            if (lower(earlier_integrals) >= lower(integrals))
-                return bounds_of(earlier_map, earlier_step, earlier, earlier_integrals);
+            const ReichStrebel integrals = integrals_of(earlier, earlier_step);
+            if (integrals.valid) return bounds_of(earlier_map, earlier_step, earlier, integrals);
         }
-        return bounds_of(map, step, measured, integrals);
+        return bounds_of(map, step, measured, integrals_of(measured, step));
+    }
+
+    /// The iteration from where it stands, and what comes after it.
+    void run();
+
+    /// Whether singularities that were thought needless are needed after all.
+    bool needs_poles() const { return withheld && bracket(step) > kPolesNeeded; }
+
+    /// Lets φ have its singularities after all.
+    void take_poles() {
+        problem.set_singularities(std::move(*withheld), options.cluster_count);
+        withheld.reset();
+        smooth = false;
+        state = {};
+    }
+
+    /// Gives up the start that was asked for: a map so folded that the class of μ means nothing leads nowhere.
+    void start_again() {
+        const int folds = folded_samples(beltrami_coefficient(source.operators, map));
+        warnings.push_back("from the start that was given the iteration ended with " + std::to_string(folds) +
+                           " flipped faces; the map comes from the " +
+                           (options.waypoints || !options.turns.empty() ? "start without it" : "harmonic start") +
+                           ", whose homotopy class may be another");
+        options.start.reset();
+        state = {};
+        before_evening.reset();
+        earlier_iterations += static_cast<int>(history.size()) - 1;
+        history.clear();
+        choose_start();
+        run();
     }
 
     ExtremalMap record() const;
@@ -344,35 +400,44 @@ ExtremalSolver::Update ExtremalSolver::update(const std::vector<Complex>& images
 
 ExtremalMap ExtremalSolver::solve() {
     Implementation& m = *implementation_;
-    using Evening = ExtremalOptions::Evening;
     m.history.clear();
-    bool evened = false;
-    if (m.problem.singular() && m.options.evening != Evening::never) {
+    m.earlier_iterations = 0;
+    m.run();
+    if (m.options.start && m.folded()) m.start_again();
+    ExtremalMap result = m.record();
+    m.before_evening.reset();
+    return result;
+}
+
+void ExtremalSolver::Implementation::run() {
+    using Evening = ExtremalOptions::Evening;
+    evened = false;
+    if ((problem.singular() || withheld) && options.evening != Evening::never) {
         // Evening out moves φ more than the last digits of the iteration do.
-        HamiltonIteration::Options rough = iteration_options(m.options);
+        HamiltonIteration::Options rough = iteration_options(options);
         rough.tolerance = std::max(rough.tolerance, kRoughTolerance);
         rough.k_tolerance = std::max(rough.k_tolerance, kRoughTolerance * kRoughTolerance);
         rough.max_iterations = std::min(rough.max_iterations, kRoughIterations);
+        rough.step_below_change = kRoughStep;
         rough.grow_last = false;
-        m.problem.coefficient_step().set_least_rounding(kRoughRounding);
-        m.iterate(rough);
-        m.problem.coefficient_step().set_least_rounding(0);
-        evened = m.converged && m.uneven() && m.even_out();
+        problem.coefficient_step().set_least_rounding(kRoughRounding);
+        iterate(rough);
+        problem.coefficient_step().set_least_rounding(0);
+        evened = converged && !needs_poles() && uneven() && even_out();
     }
     if (!evened) {
-        HamiltonIteration::Options rest = iteration_options(m.options);
-        rest.max_iterations -= std::max(0, static_cast<int>(m.history.size()) - 1);
-        if (rest.max_iterations > 0) m.iterate(rest);
-        evened = (m.options.evening == Evening::always || (m.options.evening == Evening::where_needed && m.uneven())) &&
-                 m.even_out();
+        HamiltonIteration::Options rest = iteration_options(options);
+        rest.max_iterations -= std::max(0, static_cast<int>(history.size()) - 1);
+        if (rest.max_iterations > 0) iterate(rest);
+        if (needs_poles()) {
+            take_poles();
+            return run();
+        }
+        evened = (options.evening == Evening::always || (options.evening == Evening::where_needed && uneven())) &&
+                 even_out();
     }
-    const bool folds_removed = m.options.remove_folds && m.folded() && m.remove_folds();
-    if (evened || folds_removed) m.update_coefficient();
-    ExtremalMap result = m.record();
-    m.before_evening.reset();
-    result.evened = evened;
-    result.folds_removed = folds_removed;
-    return result;
+    folds_removed = options.remove_folds && folded() && remove_folds();
+    if (evened || folds_removed) update_coefficient();
 }
 
 /// Everything that is measured on the final map, with φ of the last c-step.
@@ -383,7 +448,9 @@ ExtremalMap ExtremalSolver::Implementation::record() const {
     result.harmonic = problem.harmonic();
     result.history = history;
     result.warnings = warnings;
-    result.iterations = static_cast<int>(history.size()) - 1;
+    result.iterations = earlier_iterations + static_cast<int>(history.size()) - 1;
+    result.evened = evened;
+    result.folds_removed = folds_removed;
     result.factorizations = other_factorizations + problem.solver().factorization_count();
     result.termination = converged ? Termination::converged : Termination::iteration_limit;
     result.split = prepared.split;

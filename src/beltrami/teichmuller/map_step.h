@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include <beltrami/maps/beltrami_solver.h>
 
 namespace beltrami {
@@ -36,6 +38,7 @@ class FixedMapStep final : public MapStep {
     BeltramiSolver& solver_;
     Eigen::VectorXcd prescribed_, directions_;
     bool near_ = false;
+    double given_up_at_ = std::numeric_limits<double>::infinity();  ///< tolerance at which near_ was not near enough
 };
 
 }  // namespace beltrami
