@@ -12,7 +12,6 @@
 #include <beltrami/linear/supernodal_factor.h>
 #include <beltrami/linear/symmetric_solver.h>
 #include <beltrami/mesh/error.h>
-#include <beltrami/mesh/parallel.h>
 
 extern "C" void dsyrk_(const char* uplo, const char* trans, const int* n, const int* k, const double* alpha,
                        const double* a, const int* lda, const double* beta, double* c, const int* ldc);
@@ -32,26 +31,33 @@ void use_one_blas_thread();
 
 namespace {
 
-/// Rows that a thread takes at once.
-constexpr int kRows = 512;
+/// Held while BLAS works: a serial OpenBLAS built without locks, Debian's for one, hands the same packing buffers to
+/// every thread that calls it, and two calls at once spoil each other's products now and then.
+class BlasLock {
+  public:
+    explicit BlasLock(bool needed = true) : lock_(mutex(), std::defer_lock) {
+        if (needed) lock_.lock();
+    }
+
+  private:
+    static std::mutex& mutex() {
+        static std::mutex only;
+        return only;
+    }
+    std::unique_lock<std::mutex> lock_;
+};
 
 }  // namespace
 
 Eigen::MatrixXd gram_lower(const Eigen::MatrixXd& A) {
     const int n = static_cast<int>(A.cols()), k = static_cast<int>(A.rows());
-    const Eigen::MatrixXd nothing = Eigen::MatrixXd::Zero(n, n);
-    if (n == 0 || k == 0) return nothing;
+    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(n, n);
+    if (n == 0 || k == 0) return result;
     detail::use_one_blas_thread();
-    return parallel_sum<Eigen::MatrixXd>(
-        k, nothing,
-        [&](int first, int last) {
-            Eigen::MatrixXd part = nothing;
-            const int count = last - first;
-            const double one = 1, zero = 0;
-            dsyrk_("L", "T", &n, &count, &one, A.data() + first, &k, &zero, part.data(), &n);
-            return part;
-        },
-        kRows);
+    const BlasLock lock;
+    const double one = 1, zero = 0;
+    dsyrk_("L", "T", &n, &k, &one, A.data(), &k, &zero, result.data(), &n);
+    return result;
 }
 
 Eigen::MatrixXcd complex_product(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& B) {
@@ -59,33 +65,21 @@ Eigen::MatrixXcd complex_product(const Eigen::MatrixXcd& A, const Eigen::MatrixX
     Eigen::MatrixXcd result = Eigen::MatrixXcd::Zero(m, n);
     if (m == 0 || n == 0 || k == 0) return result;
     detail::use_one_blas_thread();
-    parallel_for(
-        0, m,
-        [&](int first, int last) {
-            const int count = last - first;
-            const std::complex<double> one = 1, zero = 0;
-            zgemm_("N", "N", &count, &n, &k, &one, A.data() + first, &m, B.data(), &k, &zero, result.data() + first,
-                   &m);
-        },
-        kRows);
+    const BlasLock lock;
+    const std::complex<double> one = 1, zero = 0;
+    zgemm_("N", "N", &m, &n, &k, &one, A.data(), &m, B.data(), &k, &zero, result.data(), &m);
     return result;
 }
 
 Eigen::MatrixXcd complex_gram_upper(const Eigen::MatrixXcd& A) {
     const int n = static_cast<int>(A.cols()), k = static_cast<int>(A.rows());
-    const Eigen::MatrixXcd nothing = Eigen::MatrixXcd::Zero(n, n);
-    if (n == 0 || k == 0) return nothing;
+    Eigen::MatrixXcd result = Eigen::MatrixXcd::Zero(n, n);
+    if (n == 0 || k == 0) return result;
     detail::use_one_blas_thread();
-    return parallel_sum<Eigen::MatrixXcd>(
-        k, nothing,
-        [&](int first, int last) {
-            Eigen::MatrixXcd part = nothing;
-            const int count = last - first;
-            const double one = 1, zero = 0;
-            zherk_("U", "C", &n, &count, &one, A.data() + first, &k, &zero, part.data(), &n);
-            return part;
-        },
-        kRows);
+    const BlasLock lock;
+    const double one = 1, zero = 0;
+    zherk_("U", "C", &n, &k, &one, A.data(), &k, &zero, result.data(), &n);
+    return result;
 }
 
 const char* linear_backend() {
@@ -167,6 +161,7 @@ class CholmodBackend final : public CholeskyBackend {
 
     bool factorize(const Matrix& lower) override {
         const SerialOpenMp serial;
+        const BlasLock lock(factor_->is_super);
         rough_ = Rough::not_made;
         cholmod_sparse view = view_of(lower);
         const int done = cholmod_factorize(&view, factor_, &common_);
@@ -178,6 +173,7 @@ class CholmodBackend final : public CholeskyBackend {
 
     void solve(const Eigen::MatrixXd& rhs, Eigen::MatrixXd& solution) override {
         const SerialOpenMp serial;
+        const BlasLock lock(factor_->is_super);
         cholmod_dense b{};
         b.nrow = b.d = static_cast<std::size_t>(rhs.rows());
         b.ncol = static_cast<std::size_t>(rhs.cols());

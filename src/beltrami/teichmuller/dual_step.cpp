@@ -38,8 +38,8 @@ constexpr double kFirstRate = 0.2;
 /// Gradients are exact where the norm is flat to rounding: so many rounds more, down to such a change.
 constexpr int kFlatRounds = 3;
 constexpr double kExact = 1e-11;
-/// Rows of the Hessian's product that a thread takes at once.
-constexpr int kHessianRows = 512;
+/// Columns of the Hessian's rows that a thread fills at once.
+constexpr int kHessianColumns = 8;
 
 /// √(|φ|² + δ²), without the care that std::abs takes of overflow.
 Eigen::VectorXd sizes_of(const Eigen::VectorXcd& phi, double delta) {
@@ -116,40 +116,36 @@ Eigen::MatrixXd dual_hessian(const DualProblem& problem, const RealView& view, c
     const Eigen::VectorXd rounding = reach.array().square() + delta * delta;
     Eigen::VectorXd sizes = (phi.array().abs2() + rounding.array()).sqrt();
     sizes = sizes.cwiseMax(kFloor * sizes.maxCoeff());
-    std::vector<int> second(static_cast<std::size_t>(points), -1);  // row of the second kind in its chunk
+    std::vector<int> second(static_cast<std::size_t>(points), -1);  // row of the second kind
     Eigen::VectorXcd e(points);
+    int count = static_cast<int>(points);
     for (Eigen::Index i = 0; i < points; ++i) {
         const double size = std::sqrt(std::norm(phi[i])), square = sizes[i] * sizes[i];
         e[i] = (size > 0 ? std::conj(phi[i]) / size : 1.0) * std::sqrt(problem.weights[i] / sizes[i]);
-        if (delta * delta > kNearZero * square || reach[i] * reach[i] > kNearReach * square) second[i] = 0;
+        if (delta * delta > kNearZero * square || reach[i] * reach[i] > kNearReach * square) second[i] = count++;
     }
-    const Eigen::Index n = view.complex ? 2 * m : m;
-    const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(n, n);
-    return parallel_sum<Eigen::MatrixXd>(
-        static_cast<int>(points), zero,
+    Eigen::MatrixXd rows(count, view.complex ? 2 * m : m);
+    parallel_for(
+        0, static_cast<int>(m),
         [&](int first, int last) {
-            int count = last - first;
-            for (int i = first; i < last; ++i)
-                if (second[i] >= 0) second[i] = count++;
-            Eigen::MatrixXd rows(count, n);
-            for (Eigen::Index j = 0; j < m; ++j) {
+            for (int j = first; j < last; ++j) {
                 const Complex* const column = &problem.basis(0, j);
                 double* const to = &rows(0, j);
                 double* const to_imaginary = view.complex ? &rows(0, m + j) : nullptr;  // of iφ_j
-                for (int i = first; i < last; ++i) {
+                for (Eigen::Index i = 0; i < points; ++i) {
                     const double re = e[i].real() * column[i].real() - e[i].imag() * column[i].imag(),
                                  im = e[i].real() * column[i].imag() + e[i].imag() * column[i].real();
-                    to[i - first] = im;
-                    if (to_imaginary) to_imaginary[i - first] = re;
+                    to[i] = im;
+                    if (to_imaginary) to_imaginary[i] = re;
                     if (second[i] < 0) continue;
                     const double ratio = std::sqrt(rounding[i]) / sizes[i];
                     to[second[i]] = ratio * re;
                     if (to_imaginary) to_imaginary[second[i]] = -ratio * im;
                 }
             }
-            return gram_lower(rows);
         },
-        kHessianRows);
+        kHessianColumns);
+    return gram_lower(rows);
 }
 
 /// The norm on the points of the problem with a linear term, Σ w √(|φ_x|²+δ²) + t·x, to be minimised on the hyperplane
