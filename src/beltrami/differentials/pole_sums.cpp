@@ -7,7 +7,7 @@
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
-#define BELTRAMI_VECTOR_CLONES __attribute__((target_clones("arch=skylake-avx512", "arch=haswell", "default")))
+#define BELTRAMI_VECTOR_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #else
 #define BELTRAMI_VECTOR_CLONES
 #endif
@@ -20,13 +20,22 @@ namespace {
 constexpr int kBlock = 256;
 /// Points of a thread's chunk.
 constexpr int kGrain = 4 * kBlock;
-/// Sums are gathered in so many parts, which a vector unit adds at once.
-constexpr int kLanes = 8;
+/// Numbers that a vector unit works on at once, and so many vectors of a block.
+constexpr int kLanes = 8, kVectors = kBlock / kLanes;
+using Lanes = double __attribute__((vector_size(8 * kLanes)));
 
 /// Real and imaginary parts of a block of points or values.
 struct Block {
-    alignas(64) double re[kBlock];
-    alignas(64) double im[kBlock];
+    alignas(64) Lanes re[kVectors];
+    alignas(64) Lanes im[kVectors];
+    void set(int i, Complex value) {
+        re[i / kLanes][i % kLanes] = value.real();
+        im[i / kLanes][i % kLanes] = value.imag();
+    }
+    Complex get(int i) const { return {re[i / kLanes][i % kLanes], im[i / kLanes][i % kLanes]}; }
+    void fill(Complex value) {
+        for (int i = 0; i < kBlock; ++i) set(i, value);
+    }
 };
 
 /// Whether a pole is the next power of the one before.
@@ -36,31 +45,45 @@ bool follows(const std::vector<Pole>& poles, std::size_t j) {
 }
 
 void load(const Eigen::VectorXcd& z, int first, int count, Block& to) {
-    for (int i = 0; i < count; ++i) {
-        to.re[i] = z[first + i].real();
-        to.im[i] = z[first + i].imag();
-    }
+    for (int i = 0; i < count; ++i) to.set(i, z[first + i]);
     // The rest of the block is computed with but not used.
-    for (int i = count; i < kBlock; ++i) {
-        to.re[i] = z[first].real();
-        to.im[i] = z[first].imag();
-    }
+    for (int i = count; i < kBlock; ++i) to.set(i, z[first]);
+}
+
+/// Vectors that share a division: 1/a and 1/b are b/(ab) and a/(ab), which costs less than two divisions.
+constexpr int kShared = 4;
+
+/// 1/a for every one of them.
+inline __attribute__((always_inline)) void invert(Lanes a[kShared]) {
+    const Lanes first = a[0] * a[1], second = a[2] * a[3], all = 1 / (first * second);
+    const Lanes of_first = all * second, of_second = all * first;
+    const Lanes inverse[kShared] = {of_first * a[1], of_first * a[0], of_second * a[3], of_second * a[2]};
+    for (int l = 0; l < kShared; ++l) a[l] = inverse[l];
 }
 
 /// scale/(z − centre).
 BELTRAMI_VECTOR_CLONES
 void reciprocal(const Block& z, double x, double y, double scale, Block& result) {
-    for (int i = 0; i < kBlock; ++i) {
-        const double dx = z.re[i] - x, dy = z.im[i] - y, size = scale / (dx * dx + dy * dy);
-        result.re[i] = dx * size;
-        result.im[i] = -dy * size;
+    for (int i = 0; i < kVectors; i += kShared) {
+        Lanes dx[kShared], dy[kShared], square[kShared];
+        for (int l = 0; l < kShared; ++l) {
+            dx[l] = z.re[i + l] - x;
+            dy[l] = z.im[i + l] - y;
+            square[l] = dx[l] * dx[l] + dy[l] * dy[l];
+        }
+        invert(square);
+        for (int l = 0; l < kShared; ++l) {
+            const Lanes size = scale * square[l];
+            result.re[i + l] = dx[l] * size;
+            result.im[i + l] = -dy[l] * size;
+        }
     }
 }
 
 BELTRAMI_VECTOR_CLONES
 void multiply(Block& a, const Block& b) {
-    for (int i = 0; i < kBlock; ++i) {
-        const double re = a.re[i] * b.re[i] - a.im[i] * b.im[i];
+    for (int i = 0; i < kVectors; ++i) {
+        const Lanes re = a.re[i] * b.re[i] - a.im[i] * b.im[i];
         a.im[i] = a.re[i] * b.im[i] + a.im[i] * b.re[i];
         a.re[i] = re;
     }
@@ -68,36 +91,58 @@ void multiply(Block& a, const Block& b) {
 
 BELTRAMI_VECTOR_CLONES
 void add_multiple(const Block& value, double x, double y, Block& sum) {
-    for (int i = 0; i < kBlock; ++i) {
+    for (int i = 0; i < kVectors; ++i) {
         sum.re[i] += x * value.re[i] - y * value.im[i];
         sum.im[i] += y * value.re[i] + x * value.im[i];
     }
 }
 
-/// Adds x + iy times scale/(z − centre).
+/// Adds x + iy times 1/(z − centre).
 BELTRAMI_VECTOR_CLONES
 void add_reciprocal(const Block& z, double centre_x, double centre_y, double x, double y, Block& sum) {
-    for (int i = 0; i < kBlock; ++i) {
-        const double dx = z.re[i] - centre_x, dy = z.im[i] - centre_y, size = 1 / (dx * dx + dy * dy);
-        sum.re[i] += size * (x * dx + y * dy);
-        sum.im[i] += size * (y * dx - x * dy);
+    for (int i = 0; i < kVectors; i += kShared) {
+        Lanes dx[kShared], dy[kShared], square[kShared];
+        for (int l = 0; l < kShared; ++l) {
+            dx[l] = z.re[i + l] - centre_x;
+            dy[l] = z.im[i + l] - centre_y;
+            square[l] = dx[l] * dx[l] + dy[l] * dy[l];
+        }
+        invert(square);
+        for (int l = 0; l < kShared; ++l) {
+            sum.re[i + l] += square[l] * (x * dx[l] + y * dy[l]);
+            sum.im[i + l] += square[l] * (y * dx[l] - x * dy[l]);
+        }
     }
 }
 
-/// Σ w v in lanes: re, im.
+/// Sums of one kind that are gathered side by side, so that none waits for another.
+constexpr int kSideBySide = 2;
+
+/// Adds Σ w v to re + i im.
 BELTRAMI_VECTOR_CLONES
 void dot(const Block& value, const Block& weight, double* re, double* im) {
-    double re_re[kLanes] = {}, im_im[kLanes] = {}, re_im[kLanes] = {}, im_re[kLanes] = {};
-    for (int i = 0; i < kBlock; i += kLanes)
-        for (int l = 0; l < kLanes; ++l) {
+    Lanes re_re[kSideBySide] = {}, im_im[kSideBySide] = {}, re_im[kSideBySide] = {}, im_re[kSideBySide] = {};
+    for (int i = 0; i < kVectors; i += kSideBySide)
+        for (int l = 0; l < kSideBySide; ++l) {
             re_re[l] += value.re[i + l] * weight.re[i + l];
             im_im[l] += value.im[i + l] * weight.im[i + l];
             re_im[l] += value.re[i + l] * weight.im[i + l];
             im_re[l] += value.im[i + l] * weight.re[i + l];
         }
+    const Lanes real = (re_re[0] + re_re[1]) - (im_im[0] + im_im[1]),
+                imaginary = (re_im[0] + re_im[1]) + (im_re[0] + im_re[1]);
     for (int l = 0; l < kLanes; ++l) {
-        *re += re_re[l] - im_im[l];
-        *im += re_im[l] + im_re[l];
+        *re += real[l];
+        *im += imaginary[l];
+    }
+}
+
+/// (z − centre)/scale.
+void shifted(const Block& z, Complex centre, double scale, Block& result) {
+    const double factor = 1 / scale;
+    for (int i = 0; i < kVectors; ++i) {
+        result.re[i] = (z.re[i] - centre.real()) * factor;
+        result.im[i] = (z.im[i] - centre.imag()) * factor;
     }
 }
 
@@ -114,12 +159,8 @@ void visit_values(const std::vector<Pole>& poles, const Block& z, Visit&& visit)
             value = base;
             for (int i = 1; i < pole.power; ++i) multiply(value, base);
         } else {
-            for (int i = 0; i < kBlock; ++i) {
-                base.re[i] = (z.re[i] - pole.centre.real()) / pole.scale;
-                base.im[i] = (z.im[i] - pole.centre.imag()) / pole.scale;
-            }
-            std::fill_n(value.re, kBlock, 1.0);
-            std::fill_n(value.im, kBlock, 0.0);
+            shifted(z, pole.centre, pole.scale, base);
+            value.fill(1.0);
             for (int i = 0; i < -pole.power; ++i) multiply(value, base);
         }
         visit(j, value);
@@ -149,8 +190,7 @@ Eigen::VectorXcd pole_combination(const std::vector<Pole>& poles, const Eigen::V
             for (int first = begin; first < end; first += kBlock) {
                 const int count = std::min(kBlock, end - first);
                 load(z, first, count, at);
-                std::fill_n(sum.re, kBlock, 0.0);
-                std::fill_n(sum.im, kBlock, 0.0);
+                sum.fill(0.0);
                 visit_values(others, at, [&](std::size_t j, const Block& value) {
                     add_multiple(value, of_others[j].real(), of_others[j].imag(), sum);
                 });
@@ -158,7 +198,7 @@ Eigen::VectorXcd pole_combination(const std::vector<Pole>& poles, const Eigen::V
                     const Complex c = of_simple[j] * simple[j].scale;
                     add_reciprocal(at, simple[j].centre.real(), simple[j].centre.imag(), c.real(), c.imag(), sum);
                 }
-                for (int i = 0; i < count; ++i) result[first + i] = {sum.re[i], sum.im[i]};
+                for (int i = 0; i < count; ++i) result[first + i] = sum.get(i);
             }
         },
         kGrain);
@@ -180,12 +220,8 @@ Eigen::MatrixXcd pole_pairing(const std::vector<Pole>& poles, const Eigen::Vecto
                 load(z, first, count, at);
                 for (Eigen::Index c = 0; c < columns; ++c) {
                     Block& w = by[static_cast<std::size_t>(c)];
-                    std::fill_n(w.re, kBlock, 0.0);
-                    std::fill_n(w.im, kBlock, 0.0);
-                    for (int i = 0; i < count; ++i) {
-                        w.re[i] = weights(first + i, c).real();
-                        w.im[i] = weights(first + i, c).imag();
-                    }
+                    w.fill(0.0);
+                    for (int i = 0; i < count; ++i) w.set(i, weights(first + i, c));
                 }
                 visit_values(poles, at, [&](std::size_t j, const Block& value) {
                     for (Eigen::Index c = 0; c < columns; ++c) {
@@ -211,7 +247,7 @@ Eigen::MatrixXcd pole_values(const std::vector<Pole>& poles, const Eigen::Vector
                 load(z, first, count, at);
                 visit_values(poles, at, [&](std::size_t j, const Block& value) {
                     Complex* const to = &result(first, static_cast<Eigen::Index>(j));
-                    for (int i = 0; i < count; ++i) to[i] = {value.re[i], value.im[i]};
+                    for (int i = 0; i < count; ++i) to[i] = value.get(i);
                 });
             }
         },

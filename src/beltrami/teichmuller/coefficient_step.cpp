@@ -121,13 +121,21 @@ CoefficientStep::Result CoefficientStep::solve(const Eigen::VectorXcd& mu, const
     problem_.pairing = sampled_.pair(pairing_weight);
     const SampleNorm norm(sampled_, chart_, norm_weight, last_coefficients_, last_values_);
     Eigen::VectorXcd at = start;
+    DualOptions cold;
+    cold.step = kColdStep;
     if (at.size() == 0)
         for (const double rounding : kColdRoundings) {
             problem_.rounding = rounding;
-            at = solve_dual(problem_, at, {.step = kColdStep}).coefficients;
+            at = solve_dual(problem_, at, cold).coefficients;
         }
     problem_.rounding = std::max(least_rounding_, kRounding * edge_);
-    const DualSolution dual = solve_dual(problem_, at, {.max_steps = newton_steps, .step = step, .norm = &norm});
+    DualOptions options;
+    options.max_steps = newton_steps;
+    options.step = step;
+    options.norm = &norm;
+    if (start.size() > 0) options.reach = moved_;
+    const DualSolution dual = solve_dual(problem_, at, options);
+    moved_ = dual.moved;
 
     Result result;
     result.converged = dual.converged;

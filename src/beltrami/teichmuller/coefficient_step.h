@@ -50,6 +50,7 @@ class CoefficientStep {
     Eigen::VectorXcd last_coefficients_, last_values_;  ///< of values()
     SampleClusters clusters_;
     DualProblem problem_;
+    Eigen::VectorXd moved_;  ///< of φ at the clusters in the last step
     double least_rounding_ = 0;
     double edge_ = 0;  ///< of the mean sample in the canonical domain
 };

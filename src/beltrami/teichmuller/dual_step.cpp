@@ -23,7 +23,8 @@ constexpr double kClusterSlope = 0.6, kHoleClusterSlope = 0.25;
 constexpr double kSmallestCluster = 1e-5;
 /// (δ/s)² and (r/s)² below which the second kind of Hessian row is left out.
 constexpr double kNearZero = 1e-3, kNearReach = 0.05;
-/// How far φ is expected to move at a point: as part of |φ| in the first step, then of the step before.
+/// How far φ is expected to move at a point: as part of |φ| in the first step where nothing is known, then of the step
+/// before.
 constexpr double kFirstReach = 0.6, kReach = 0.7;
 /// A step is halved at most so often, until the norm falls by this part of what the slope promises.
 constexpr int kHalvings = 40;
@@ -31,6 +32,8 @@ constexpr double kDescent = 1e-4;
 /// Newton steps on the coarse norm before the fine one is looked at again; they end at this part of the way made.
 constexpr int kInnerSteps = 8;
 constexpr double kInnerFraction = 0.15;
+/// The Hessian before a step shorter than this part of the whole serves for the next step too.
+constexpr double kSameHessian = 0.03;
 /// The coarse norm is trusted no longer once less than this part of its step is taken.
 constexpr double kTrusted = 0.3;
 /// The change that a second look is expected to make, as part of the first.
@@ -165,19 +168,20 @@ class TiltedNorm {
     };
     /// Newton's method with backtracking from @p x.
     /// @param phi       of x at the points; moves with it
-    /// @param first_reach by what part of itself φ is expected to move
-    /// @param step      it ends after a step shorter than this part of x
+    /// @param reach     by how much φ is expected to move at the points; afterwards, in a step that would follow
+    /// @param step      it ends where another step is expected to be shorter than this part of x
     /// @param fraction  … or than this part of the way made so far
-    End descend(Eigen::VectorXd& x, Eigen::VectorXcd& phi, const Eigen::VectorXd& tilt, double first_reach, double step,
-                double fraction, int max_steps) const {
+    End descend(Eigen::VectorXd& x, Eigen::VectorXcd& phi, const Eigen::VectorXd& tilt, Eigen::VectorXd& reach,
+                double step, double fraction, int max_steps) {
         End end;
         const Eigen::VectorXd start = x;
-        Eigen::VectorXd reach = first_reach * phi.cwiseAbs();
-        double value = problem_.weights.dot(sizes_of(phi, delta_)) + tilt.dot(x);
+        double value = problem_.weights.dot(sizes_of(phi, delta_)) + tilt.dot(x), last_moved = 0;
         while (end.steps < max_steps) {
             const Eigen::VectorXd slope_by = gradient(phi) + tilt;
-            const Eigen::VectorXd direction = newton_step(slope_by, phi, reach);
-            if (direction.size() == 0) break;
+            const bool fresh = !same_hessian_;
+            if (fresh && !set_hessian(phi, reach)) break;
+            same_hessian_ = false;
+            const Eigen::VectorXd direction = newton_step(slope_by);
             const double slope = slope_by.dot(direction), scale = std::abs(value);
             if (!(slope < -kGradientTolerance * kGradientTolerance * scale)) {
                 end.converged = slope > -kGradientTolerance * scale;
@@ -188,7 +192,7 @@ class TiltedNorm {
             const bool flat = -slope < kGradientTolerance * scale;
             double length = 1;
             bool accepted = false;
-            for (int halving = 0; halving < kHalvings && !accepted; ++halving) {
+            for (int halving = 0; halving < (fresh ? kHalvings : 1) && !accepted; ++halving) {
                 const Eigen::VectorXcd trial = phi + length * phi_step;
                 const double trial_value =
                     problem_.weights.dot(sizes_of(trial, delta_)) + tilt.dot(x) + length * tilt.dot(direction);
@@ -200,41 +204,52 @@ class TiltedNorm {
                     length *= 0.5;
                 }
             }
-            if (accepted) {
-                x += length * direction;
-                reach = kReach * length * phi_step.cwiseAbs();
-                ++end.steps;
+            if (!accepted) {
+                if (fresh) break;
+                continue;  // with the Hessian of the place
             }
-            const double moved = length * direction.norm();
-            if (flat || (accepted && (moved < step * x.norm() || moved < fraction * (x - start).norm()))) {
+            x += length * direction;
+            reach = kReach * length * phi_step.cwiseAbs();
+            ++end.steps;
+            const double moved = length * direction.norm(),
+                         rest = last_moved > 0 ? moved * std::min(1.0, moved / last_moved) : moved;
+            same_hessian_ = length == 1 && moved < kSameHessian * x.norm() && (fresh || moved < kReach * last_moved);
+            if (flat || rest < step * x.norm() || rest < fraction * (x - start).norm()) {
                 end.converged = true;
                 break;
             }
-            if (!accepted) break;
+            last_moved = moved;
         }
         return end;
     }
 
   private:
-    /// @return empty if the system cannot be solved
-    Eigen::VectorXd newton_step(const Eigen::VectorXd& gradient, const Eigen::VectorXcd& phi,
-                                const Eigen::VectorXd& reach) const {
+    /// @return false if the Hessian is not definite
+    bool set_hessian(const Eigen::VectorXcd& phi, const Eigen::VectorXd& reach) {
         Eigen::MatrixXd hessian = dual_hessian(problem_, view_, phi, delta_, reach);
         // x itself is a null direction (the norm is homogeneous of degree one). On the hyperplane a multiple of p pᵀ
         // changes nothing and makes the matrix definite; the tiny shift is for functions that no quadrature point sees.
         const double mean_diagonal = hessian.trace() / static_cast<double>(p_.size());
         hessian.selfadjointView<Eigen::Lower>().rankUpdate(p_, mean_diagonal / p_.squaredNorm());
         hessian.diagonal().array() += 1e-14 * mean_diagonal;
-        const Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> cholesky(hessian);
-        if (cholesky.info() != Eigen::Success) return {};
-        const Eigen::VectorXd by_gradient = cholesky.solve(gradient), by_constraint = cholesky.solve(p_);
-        return p_.dot(by_gradient) / p_.dot(by_constraint) * by_constraint - by_gradient;
+        cholesky_.compute(hessian);
+        if (cholesky_.info() != Eigen::Success) return false;
+        by_constraint_ = cholesky_.solve(p_);
+        return true;
+    }
+
+    Eigen::VectorXd newton_step(const Eigen::VectorXd& gradient) const {
+        const Eigen::VectorXd by_gradient = cholesky_.solve(gradient);
+        return p_.dot(by_gradient) / p_.dot(by_constraint_) * by_constraint_ - by_gradient;
     }
 
     const DualProblem& problem_;
     const RealView& view_;
     const Eigen::VectorXd& p_;
     double delta_;
+    Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> cholesky_;
+    Eigen::VectorXd by_constraint_;
+    bool same_hessian_ = false;  ///< the next step takes the one at hand
 };
 
 }  // namespace
@@ -262,18 +277,22 @@ DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& star
     Eigen::VectorXd x = view.pack(c) / along;
     Eigen::VectorXcd coarse_phi = problem.basis * view.unpack(x);
     const double total = problem.weights.sum();
-    const double delta = total > 0 ? problem.rounding * problem.weights.dot(coarse_phi.cwiseAbs()) / total : 0.0;
-    const TiltedNorm coarse(problem, view, p, delta);
+    const auto mean_size = [&] { return total > 0 ? problem.weights.dot(coarse_phi.cwiseAbs()) / total : 0.0; };
+    const double delta = problem.rounding * mean_size();
+    TiltedNorm coarse(problem, view, p, delta);
+    const Eigen::VectorXcd start_phi = coarse_phi;
+    Eigen::VectorXd reach = options.reach.size() ? Eigen::VectorXd(mean_size() * options.reach)
+                                                 : Eigen::VectorXd(kFirstReach * coarse_phi.cwiseAbs());
     if (x.size() == 1) {  // the hyperplane of a single real function is a point
         solution.converged = true;
         solution.phi = fine.values(view.unpack(x));
         solution.norm = fine.norm(solution.phi, delta);
     } else if (!options.norm) {
-        const TiltedNorm::End end = coarse.descend(x, coarse_phi, Eigen::VectorXd::Zero(x.size()), kFirstReach,
-                                                   options.step, 0, options.max_steps);
+        const TiltedNorm::End end = coarse.descend(x, coarse_phi, Eigen::VectorXd::Zero(x.size()), reach, options.step,
+                                                   0, options.max_steps);
         solution.newton_steps = end.steps;
         solution.converged = end.converged;
-        solution.phi = std::move(coarse_phi);
+        solution.phi = coarse_phi;
         solution.norm = own.norm(solution.phi, delta);
     } else {
         // The norm on fewer points, tilted to have the gradient of the other one: its minimum is that of the other one
@@ -286,9 +305,9 @@ DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& star
             const Eigen::VectorXd gradient = view.covector(fine.gradient(phi, delta));
             const Eigen::VectorXd tilt = gradient - coarse.gradient(coarse_phi);
             Eigen::VectorXd next = x;
-            const TiltedNorm::End end = coarse.descend(
-                next, coarse_phi, tilt, round == 0 ? kFirstReach : std::min(kFirstReach, last_moved), options.step,
-                kInnerFraction, std::min(trusted ? kInnerSteps : 1, options.max_steps - solution.newton_steps));
+            const TiltedNorm::End end =
+                coarse.descend(next, coarse_phi, tilt, reach, options.step, kInnerFraction,
+                               std::min(trusted ? kInnerSteps : 1, options.max_steps - solution.newton_steps));
             solution.newton_steps += end.steps;
             if (end.steps == 0 && !end.converged) break;
             const Eigen::VectorXd direction = next - x;
@@ -334,6 +353,7 @@ DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& star
     }
     solution.coefficients = view.unpack(x);
     solution.pairing = p.dot(x);
+    solution.moved = (coarse_phi - start_phi).cwiseAbs() / mean_size();
     return solution;
 }
 

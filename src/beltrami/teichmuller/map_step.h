@@ -30,7 +30,10 @@ class FixedMapStep final : public MapStep {
     }
     /// Whether the solver's last factorisation is of a coefficient near the next one, so that conjugate gradients with
     /// it may do.
-    void set_near(bool near) { near_ = near; }
+    void set_near(bool near) {
+        near_ = near;
+        given_up_at_ = std::numeric_limits<double>::infinity();
+    }
 
     void solve(const Eigen::VectorXcd& nu, Eigen::VectorXcd& map, double tolerance) override;
 
