@@ -288,8 +288,8 @@ DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& star
         solution.phi = fine.values(view.unpack(x));
         solution.norm = fine.norm(solution.phi, delta);
     } else if (!options.norm) {
-        const TiltedNorm::End end = coarse.descend(x, coarse_phi, Eigen::VectorXd::Zero(x.size()), reach, options.step,
-                                                   0, options.max_steps);
+        const TiltedNorm::End end =
+            coarse.descend(x, coarse_phi, Eigen::VectorXd::Zero(x.size()), reach, options.step, 0, options.max_steps);
         solution.newton_steps = end.steps;
         solution.converged = end.converged;
         solution.phi = coarse_phi;
