@@ -11,6 +11,7 @@
 #include <beltrami/linear/dense.h>
 #include <beltrami/linear/supernodal_factor.h>
 #include <beltrami/linear/symmetric_solver.h>
+#include <beltrami/linear/vector_gram.h>
 #include <beltrami/mesh/error.h>
 
 extern "C" void dsyrk_(const char* uplo, const char* trans, const int* n, const int* k, const double* alpha,
@@ -50,6 +51,7 @@ class BlasLock {
 }  // namespace
 
 Eigen::MatrixXd gram_lower(const Eigen::MatrixXd& A) {
+    if (detail::has_vector_gram()) return detail::vector_gram(A);
     const int n = static_cast<int>(A.cols()), k = static_cast<int>(A.rows());
     Eigen::MatrixXd result = Eigen::MatrixXd::Zero(n, n);
     if (n == 0 || k == 0) return result;
