@@ -46,9 +46,9 @@ constexpr double kRough = 0.6;
 
 /// A map that is farther than this part of k from |μ| = k is evened out: where φ is singular, and elsewhere.
 constexpr double kUnevenAtSingularities = 0.02, kUneven = 0.1, kUnevenAtAll = 2e-3;
-/// Where evening out is to be expected, the iteration ends at this change of φ, its square of k, or where what they
-/// will still change is this part of the mesh's noise, or after so many steps.
-constexpr double kRoughTolerance = 0.01, kPartOfNoise = 0.4;
+/// Where evening out is to be expected, the iteration ends at this change of φ, its square of k, or after so many
+/// steps.
+constexpr double kRoughTolerance = 0.02;
 constexpr int kRoughIterations = 16;
 constexpr double kRoughRounding = 0.005, kRoughStep = 0.05;
 /// Newton step, as part of the whole, to which the c-step is solved after the iteration.
@@ -417,7 +417,6 @@ void ExtremalSolver::Implementation::run() {
         HamiltonIteration::Options rough = iteration_options(options);
         rough.tolerance = std::max(rough.tolerance, kRoughTolerance);
         rough.k_tolerance = std::max(rough.k_tolerance, kRoughTolerance * kRoughTolerance);
-        rough.part_of_noise = kPartOfNoise;
         rough.max_iterations = std::min(rough.max_iterations, kRoughIterations);
         rough.step_below_change = kRoughStep;
         rough.grow_last = false;

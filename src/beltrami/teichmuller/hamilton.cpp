@@ -21,8 +21,6 @@ constexpr int kStalledFor = 4;
 /// φ changes by more than this while k changes by less than that, for so many steps, within so narrow a bracket of K.
 constexpr double kQuietAbove = 1e-3, kQuietChangeOfK = 2e-4, kQuietGap = 0.02;
 constexpr int kQuietFor = 6;
-/// φ is never expected to change by less than this rate of convergence leaves.
-constexpr double kSlowest = 0.9;
 /// Steps taken in a preliminary space.
 constexpr int kPreliminaryIterations = 2;
 /// Newton step, as part of the whole, to which the first c-step with poles at corners is solved.
@@ -149,14 +147,10 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
         const double gap = bracket(step_);
         quiet = change > kQuietAbove && k_change < kQuietChangeOfK ? quiet + 1 : 0;
         const bool undecided = quiet >= kQuietFor && gap < kQuietGap && !state.space->preliminary();
-        const double rate = std::min(change / last_change, kSlowest), rest = change * rate / (1 - rate);
-        const bool in_noise =
-            rest < options_.part_of_noise * std::sqrt(std::max(gap, 0.0)) && k_change < options_.part_of_noise * gap;
         const bool settled =
-            undecided ||
-            (!state.space->preliminary() && step_.converged &&
-             (stalled || in_noise ||
-              (k_change < options_.k_tolerance && (change < options_.tolerance || step_.k < options_.k_tolerance))));
+            undecided || (!state.space->preliminary() && step_.converged &&
+                          (stalled || (k_change < options_.k_tolerance &&
+                                       (change < options_.tolerance || step_.k < options_.k_tolerance))));
         // Growing is decided where the map is exact to rounding, which must not turn the decision: at the start
         // (above), at the first map that comes from another mesh's φ, and in the end.
         if ((from_elsewhere && options_.grow_first && iterations_ == 1) || (settled && options_.grow_last) ||

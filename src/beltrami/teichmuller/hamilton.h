@@ -29,9 +29,6 @@ class HamiltonIteration {
     struct Options {
         double tolerance = 1e-8;    ///< of φ's direction
         double k_tolerance = 1e-8;  ///< of k
-        /// It also ends where what φ is expected to change still is this part of the noise that the mesh leaves in μ,
-        /// of which √bracket is the size, and k that part of its square; 0: not for this.
-        double part_of_noise = 0;
         int max_iterations = 60;
         /// The c-step is solved to this part of the change of φ in the last iteration.
         double step_below_change = 0.01;
