@@ -82,6 +82,7 @@ void finish(const Record& record, const CommonOptions& common, const std::string
         if (record.solve)
             fmt::print("{} after {}\n", record.solve->termination,
                        counted(record.solve->iterations, "iteration", "iterations"));
+        if (record.grid) fmt::print("{}", to_table(*record.grid));
         fmt::print("{}", to_remarks(record));
         fmt::print("{}", to_sentence(record));
         for (const std::string& file : files)

@@ -24,7 +24,8 @@ class DistanceCommand final : public Command {
             ->check(CLI::NonNegativeNumber)
             ->capture_default_str()
             ->type_name("h");
-        app->add_option("--match", match_, "holes go to those nearest after the best rotation, or of like size")
+        app->add_option("--match", match_,
+                        "holes go to those nearest after the best Moebius map of the disk, or of like size")
             ->check(CLI::IsMember({"position", "size"}))
             ->capture_default_str();
         app->add_option("--picture", picture_, "the matrix and the tree of its clusters, as SVG")

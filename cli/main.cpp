@@ -81,6 +81,7 @@ int main(int argc, char** argv) {
                            "  beltrami measure out.obj                 # distortion of its texture coordinates\n"
                            "  beltrami measure rest.obj deformed.obj   # distortion of a deformation\n"
                            "  beltrami map face.obj --onto domain.json -o out.obj   # the boundary slides\n"
+                           "  beltrami grid face.obj --onto domain.json -o quads.obj   # a structured grid\n"
                            "  beltrami distance a.obj b.obj\n"
                            "  beltrami flatten face.obj -o flat.obj\n\n") +
                cli::kExitCodes);
@@ -93,6 +94,7 @@ int main(int argc, char** argv) {
     add(cli::make_measure);
     add(cli::make_map);
     add(cli::make_flatten);
+    add(cli::make_grid);
     add(cli::make_distance);
 
     try {

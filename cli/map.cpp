@@ -46,11 +46,14 @@ class Map final : public Command {
         onto_.add_to(*app);
         homotopy_.add_to(*app);
         metric_.add_to(*app);
-        app->add_option(
-               "--compare", compare_,
-               "further methods to set beside the map, on the same boundary values (lscm on its own free boundary)")
+        std::vector<std::string> others = baseline_names();
+        others.insert(others.end(), sliding_baseline_names().begin(), sliding_baseline_names().end());
+        app->add_option("--compare", compare_,
+                        "further methods to set beside the map, on the same boundary values (lscm on its own free "
+                        "boundary); with "
+                        "--onto: t-map, the scheme of Ng, Gu and Lui for boundaries that slide")
             ->delimiter(',')
-            ->check(CLI::IsMember(baseline_names()))
+            ->check(CLI::IsMember(others))
             ->type_name("METHOD,...");
         common_.add_to(*app);
         app->footer(kExitCodes);
@@ -93,7 +96,7 @@ class Map final : public Command {
         options.outer_loop = boundary_.outer_loop();
         onto_.apply(options);
         homotopy_.apply(source, options);
-        MethodResult result = run_onto(source, onto_, std::move(options), start, !common_.quiet, record);
+        MethodResult result = run_onto(source, onto_, std::move(options), start, !common_.quiet, record, compare_);
         const Surface& mapped = result.split ? *result.split : source;
         if (result.positions) {
             output_.write(mapped.mesh, *result.positions, result.map, result.distortion);
@@ -116,8 +119,13 @@ class Map final : public Command {
         refuse(boundary_.given(), "--boundary, --hole or --pin");
         refuse(certify_.has_value(), "--certify");
         refuse(minimize_ != "K", "--minimize");
-        refuse(!compare_.empty(), "--compare");
+        for (const std::string& other : compare_) refuse(!slides(other), "--compare " + other);
         refuse(method_ != "extremal", "--method " + method_);
+    }
+
+    static bool slides(const std::string& method) {
+        const std::vector<std::string>& names = sliding_baseline_names();
+        return std::find(names.begin(), names.end(), method) != names.end();
     }
 
     void check() const {
@@ -139,6 +147,10 @@ class Map final : public Command {
         }
         if (const std::string stray = onto_.stray(); !stray.empty())
             throw Error(Cause::bad_option, stray + " belongs to --onto");
+        for (const std::string& other : compare_)
+            if (slides(other))
+                throw Error(Cause::bad_option, "--compare " + other + " belongs to --onto: its boundary slides",
+                            "leave it out, or give --onto TARGET");
         if (certify_ && minimize_ == "max")
             throw Error(Cause::bad_option, "--certify is about the extremal map, not about --minimize max",
                         "leave one of them out");

@@ -3,7 +3,10 @@
 #include <map>
 
 #include <beltrami/baselines/baseline.h>
+#include <beltrami/baselines/t_map_scheme.h>
+#include <beltrami/mesh/error.h>
 #include <beltrami/teichmuller/certify.h>
+#include <beltrami/teichmuller/target_model.h>
 
 #include "command.h"
 #include "page.h"
@@ -114,9 +117,41 @@ MethodResult run_least_maximum(const Surface& source, const BoundaryCondition& b
     return done;
 }
 
+const std::vector<std::string>& sliding_baseline_names() {
+    static const std::vector<std::string> names{"t-map"};
+    return names;
+}
+
+namespace {
+
+/// Ng, Gu & Lui's scheme, from the start and with the pairs of the extremal map.
+void run_t_map(const Surface& source, const TargetDomain& target, const OntoOptions& options,
+               std::vector<PageMap>& pages, Record& record) {
+    const double start = seconds();
+    MethodRecord line;
+    line.method = "t-map";
+    try {
+        TMapSchemeResult result = t_map_scheme(source, target, {}, options);
+        line.map = map_record(result.distortion);
+        line.solve.iterations = result.solves;
+        line.solve.termination = to_string(result.termination);
+        line.solve.factorizations = result.factorizations;
+        for (const std::string& warning : result.warnings) record.warnings.push_back("t-map: " + warning);
+        pages.push_back({"t-map", positions_of(result.map), result.distortion.face_abs_mu});
+    } catch (const Error& error) {
+        record.warnings.push_back(std::string("t-map is not in the comparison: ") + error.what());
+        return;
+    }
+    line.solve.seconds_total = seconds() - start;
+    record.comparison.push_back(std::move(line));
+}
+
+}  // namespace
+
 MethodResult run_onto(const Surface& source, const OntoTarget& target, OntoOptions options, double start, bool show,
-                      Record& record) {
+                      Record& record, const std::vector<std::string>& compare) {
     MethodResult done;
+    std::optional<CircleDomainChart> circles;  // of a target that is a surface
     ExtremalMapOnto result = [&] {
         Progress progress(show);
         options.progress = [&](int iteration, double k) {
@@ -127,6 +162,7 @@ MethodResult run_onto(const Surface& source, const OntoTarget& target, OntoOptio
         ExtremalMapOntoSurface onto = extremal_map(source, *target.surface(), options);
         done.positions = std::move(onto.positions);
         done.places = std::move(onto.places);
+        circles = std::move(onto.target);
         return std::move(onto.plane);
     }();
     record.solve = solve_record(result, seconds() - start);
@@ -138,6 +174,14 @@ MethodResult run_onto(const Surface& source, const OntoTarget& target, OntoOptio
     const Surface& used = done.split ? *done.split : source;
     done.pages.push_back({"extremal", positions_of(result.map), result.distortion.face_abs_mu});
     done.pages.push_back({"start", positions_of(result.start), distortion(used.operators, result.start).face_abs_mu});
+    if (!compare.empty()) {
+        OntoOptions own = circles ? options_on_circles(options, *target.surface(), *circles) : options;
+        own.mark_vertices.clear();
+        own.progress = {};
+        own.loops.clear();
+        for (const LoopOnto& loop : result.loops) own.loops.push_back({loop.loop, loop.curve});
+        run_t_map(used, circles ? circle_target(*circles) : *target.domain(), own, done.pages, record);
+    }
     done.history = std::move(result.history);
     done.map = std::move(result.map);
     done.distortion = std::move(result.distortion);

@@ -32,9 +32,13 @@ MethodResult run_extremal(const Surface& source, const BoundaryCondition& bounda
 MethodResult run_least_maximum(const Surface& source, const BoundaryCondition& boundary, ExtremalOptions options,
                                double start, bool show, Record& record);
 
+/// Names of the methods that can be set beside it where the boundary slides.
+const std::vector<std::string>& sliding_baseline_names();
+
 /// The extremal map onto a target; fills onto too.
+/// @param compare further methods for the record's comparison and the pages
 MethodResult run_onto(const Surface& source, const OntoTarget& target, OntoOptions options, double start, bool show,
-                      Record& record);
+                      Record& record, const std::vector<std::string>& compare = {});
 
 /// Another method.
 MethodResult run_baseline(const Surface& source, const BoundaryCondition& boundary, const std::string& method,

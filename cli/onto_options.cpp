@@ -15,26 +15,34 @@
 
 namespace beltrami::cli {
 
-void OntoTarget::add_to(CLI::App& app) {
+void OntoTarget::add_to(CLI::App& app, Kinds kinds) {
+    kinds_ = kinds;
+    const bool meshes = kinds == Kinds::meshes_and_domains;
+    const std::string source = meshes ? "SOURCE" : "SURFACE",
+                      domain =
+                          "a domain in JSON: {\"outer\": LOOP, \"holes\": [LOOP, ...]}, LOOP one of "
+                          "{\"circle\": [x,y,r]}, {\"polygon\": [[x,y],...]}, {\"spline\": [[x,y],...]}";
     app.add_option("--onto", path_,
-                   "the boundary slides: every boundary loop of SOURCE goes onto its partner of TARGET, a mesh with as "
-                   "many boundary loops, or a domain in JSON: {\"outer\": LOOP, \"holes\": [LOOP, ...]}, LOOP one of "
-                   "{\"circle\": [x,y,r]}, {\"polygon\": [[x,y],...]}, {\"spline\": [[x,y],...]}")
+                   "the boundary slides: every boundary loop of " + source + " goes onto its partner of TARGET, " +
+                       (meshes ? "a mesh with as many boundary loops, or " : "") + domain)
         ->type_name("TARGET");
     app.add_option("--loops", pair_specs_,
-                   "pairs of boundary loops, SOURCE's as `beltrami info` prints them and TARGET's (of a domain: 0 the "
-                   "outer curve, then the holes from 1); default: matched, see --match")
+                   "pairs of boundary loops, " + source +
+                       "'s as `beltrami info` prints them and TARGET's (of a domain: 0 the outer curve, then the "
+                       "holes from 1); default: matched, see --match")
         ->delimiter(',')
         ->allow_extra_args(false)
         ->type_name("0:0,1:2,...");
     app.add_option("--match", match_,
-                   "without --loops, holes go to those nearest after the best rotation, or of like size")
+                   "without --loops, holes go to those nearest after the best Moebius map of the disk, or of like size")
         ->check(CLI::IsMember({"position", "size"}))
         ->capture_default_str();
     app.add_option("--marks", marks_file_,
-                   "boundary vertices of SOURCE with their places on the curves of a domain: a line `source_vertex x "
-                   "y` each, the nearest point of the nearest curve is meant")
+                   "boundary vertices of " + source +
+                       " with their places on the curves of a domain: a line `source_vertex x y` each, the nearest "
+                       "point of the nearest curve is meant")
         ->type_name("FILE");
+    if (!meshes) return;
     app.add_option("--mark-vertices", mark_vertices_file_,
                    "the same with vertices of a mesh TARGET: a line `source_vertex target_vertex` each")
         ->type_name("FILE");
@@ -59,6 +67,9 @@ std::vector<NamedFile> OntoTarget::inputs() const {
 void OntoTarget::load(const Surface& source, std::vector<std::string>& warnings) {
     if (lower_case_extension(path_) == ".json") {
         domain_ = read_target_domain(path_);
+    } else if (kinds_ == Kinds::domains) {
+        throw Error(Cause::bad_option, "--onto " + path_ + " is no domain in JSON",
+                    "the name of a domain ends in .json; see --help");
     } else {
         surface_.emplace(cli::load(path_, warnings));
         add_findings(surface_->findings, warnings);
@@ -105,14 +116,17 @@ void OntoTarget::apply(OntoOptions& options) const {
 }
 
 void OntoTarget::write_places(const std::vector<MeshPoint>& places) const {
-    if (places_.empty()) return;
+    if (!places_.empty()) cli::write_places(places_, places);
+}
+
+void write_places(const std::string& path, const std::vector<MeshPoint>& places) {
     std::string text = "# vertex face a b c weight_a weight_b weight_c\n";
     for (std::size_t v = 0; v < places.size(); ++v) {
         const MeshPoint& p = places[v];
         text += fmt::format("{} {} {} {} {} {:.17g} {:.17g} {:.17g}\n", v, p.face, p.vertices[0], p.vertices[1],
                             p.vertices[2], p.barycentric[0], p.barycentric[1], p.barycentric[2]);
     }
-    write_atomically(places_, text);
+    write_atomically(path, text);
 }
 
 }  // namespace beltrami::cli

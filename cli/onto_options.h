@@ -8,10 +8,15 @@
 
 namespace beltrami::cli {
 
+/// Writes places on a mesh, a line each.
+void write_places(const std::string& path, const std::vector<MeshPoint>& places);
+
 /// --onto, --loops, --match, --marks, --mark-vertices, --places: a target onto which the boundary slides.
 class OntoTarget {
   public:
-    void add_to(CLI::App& app);
+    enum class Kinds { meshes_and_domains, domains };
+    /// For domains only, without --mark-vertices and --places.
+    void add_to(CLI::App& app, Kinds kinds = Kinds::meshes_and_domains);
     bool given() const { return !path_.empty(); }
     /// Whether an option that belongs to --onto was given; its name.
     std::string stray() const;
@@ -33,6 +38,8 @@ class OntoTarget {
 
   private:
     void read_marks(const Surface& source);
+
+    Kinds kinds_ = Kinds::meshes_and_domains;
 
     std::string path_, match_ = "position", marks_file_, mark_vertices_file_, places_;
     std::vector<std::string> pair_specs_;

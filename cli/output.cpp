@@ -16,12 +16,15 @@ void OutputOptions::add_to(CLI::App& app) {
     app.add_flag("--as-positions", as_positions_, "write the map as vertex positions (z = 0) instead of vt");
 }
 
-void OutputOptions::check() const {
-    const std::string extension = lower_case_extension(path_);
+void require_mesh_format(const std::string& path) {
+    const std::string extension = lower_case_extension(path);
     if (extension != ".obj" && extension != ".ply" && extension != ".off")
-        throw Error(Cause::bad_option,
-                    "-o " + path_ + ": the extension '" + extension + "' is none of .obj, .ply, .off",
+        throw Error(Cause::bad_option, "-o " + path + ": the extension '" + extension + "' is none of .obj, .ply, .off",
                     "name the output with one of these extensions");
+}
+
+void OutputOptions::check() const {
+    require_mesh_format(path_);
 }
 
 namespace {

@@ -6,6 +6,9 @@
 
 namespace beltrami::cli {
 
+/// @throw Error bad_option if the extension of -o's file is that of no format
+void require_mesh_format(const std::string& path);
+
 /// -o OUT and --as-positions: where and how a planar map of a mesh is written.
 class OutputOptions {
   public:

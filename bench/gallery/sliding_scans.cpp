@@ -179,8 +179,9 @@ Figure sliding_12(Output& output) {
     figure.tables.push_back(std::move(table));
     figure.remarks.push_back(
         "By default the start is made on a coarse mesh, and the flips are those of that mesh; on the scan's own mesh "
-        "there are thousands. To exchange two holes of the face against their order around the boundary costs K above "
-        "6; on the scan's own mesh the bracket of such a K is wider than 3 %, with every face in four it is not.");
+        "there are thousands. To exchange two holes of the face against their order around the boundary costs K of 6 "
+        "and more; on the scan's own mesh the bracket of such a K is up to 5 % wide, with every face in four below 2 "
+        "%.");
     figure.remarks.push_back("The map onto the copy that sends every vertex to itself has mean |μ| " +
                              number(vertex_to_vertex.mean) + ", 99th percentile " + number(vertex_to_vertex.p99) +
                              " and largest " + number(vertex_to_vertex.max, 3) +

@@ -2,13 +2,16 @@
 
 /// The one header that most users include.
 
+#include <beltrami/applications/fitting_grid.h>
 #include <beltrami/applications/grid_on_surface.h>
+#include <beltrami/applications/reached_corners.h>
 #include <beltrami/baselines/baseline.h>
 #include <beltrami/baselines/t_map_scheme.h>
 #include <beltrami/conformal/boundary_values.h>
 #include <beltrami/conformal/chart_places.h>
 #include <beltrami/conformal/circle_domain_chart.h>
 #include <beltrami/conformal/circle_matching.h>
+#include <beltrami/conformal/disk_moebius.h>
 #include <beltrami/conformal/domain_chart.h>
 #include <beltrami/conformal/fill_holes.h>
 #include <beltrami/conformal/flatten.h>

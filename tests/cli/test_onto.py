@@ -120,6 +120,34 @@ class Onto(WithRing):
         self.assertGreater(abs(found[0] - found[1]), 1e-3)
 
 
+class Compare(WithRing):
+    def test_the_papers_scheme_beside_the_extremal_map(self):
+        record = self.record("map", self.source, "--onto", self.target, "-o", self.path("out.obj"), "--compare", "t-map",
+                             "--report", self.path("out.html"))
+        exact = (math.log(0.3) / math.log(0.5) - 1) / (math.log(0.3) / math.log(0.5) + 1)
+        (line,) = record["comparison"]
+        self.assertEqual(line["method"], "t-map")
+        self.assertEqual(line["map"]["flipped"], 0)
+        self.assertAlmostEqual(line["map"]["mu"]["mean"], exact, delta=0.01)
+        self.assertGreater(line["solve"]["iterations"], record["solve"]["iterations"])
+        self.assertNotIn("k", line["map"])
+        self.assertIn("t-map", pathlib.Path(self.path("out.html")).read_text())
+        text = self.run_command("map", self.source, "--onto", self.target, "-o", self.path("out.obj"), "--compare",
+                                "t-map").stdout
+        self.assertTrue(any(row.startswith("t-map ") for row in text.splitlines()))
+
+    def test_onto_a_mesh_with_marks(self):
+        points, faces = ring(40, 8, 0.3)
+        write_obj(self.path("other.obj"), points, faces)
+        loops = self.record("info", self.source)["source"]["loops"], self.record("info", self.path("other.obj"))["source"]["loops"]
+        pathlib.Path(self.path("marks.txt")).write_text(f"{loops[0][0]['first_vertex']} {loops[1][0]['first_vertex'] + 10}\n")
+        record = self.record("map", self.source, "--onto", self.path("other.obj"), "--mark-vertices",
+                             self.path("marks.txt"), "-o", self.path("out.obj"), "--compare", "t-map")
+        (line,) = record["comparison"]
+        # The mark holds the rotation only: k stays that of the ring.
+        self.assertAlmostEqual(line["map"]["mu"]["mean"], record["map"]["k"], delta=0.02)
+
+
 class Mistakes(WithRing):
     def fails(self, *arguments):
         before = sorted(p.name for p in self.folder.iterdir())
@@ -133,6 +161,9 @@ class Mistakes(WithRing):
         self.assertIn("--loops belongs to --onto", self.fails("--loops", "0:0", "--boundary", "disk"))
         self.assertIn("--loops 0:x", self.fails("--onto", self.target, "--loops", "0:x"))
         self.assertIn("--places", self.fails("--onto", self.target, "--places", self.path("p.txt")))
+        self.assertIn("--compare harmonic", self.fails("--onto", self.target, "--compare", "t-map,harmonic"))
+        self.assertIn("--compare t-map belongs to --onto", self.fails("--boundary", "disk", "--compare", "t-map"))
+        self.assertIn("--compare", self.fails("--onto", self.target, "--compare", "tmap"))
         self.assertIn("--certify", self.fails("--onto", self.target, "--certify", "1"))
 
     def test_domains_that_are_wrong(self):

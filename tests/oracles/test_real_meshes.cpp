@@ -9,6 +9,7 @@
 #include <beltrami/conformal/boundary_values.h>
 #include <beltrami/conformal/domain_chart.h>
 #include <beltrami/io/read_mesh.h>
+#include <beltrami/teichmuller/extremal_onto.h>
 
 #include "support/extremal.h"
 
@@ -94,6 +95,15 @@ TEST_F(LargeRealMeshes, FaceWithThreeHoles) {
     EXPECT_LE(result.distortion.standard_deviation, 0.010);
     EXPECT_LE(gap(result), 0.006);
     for (const HoleTurns& hole : result.homotopy.holes) EXPECT_EQ(hole.turns, 0);
+}
+
+TEST_F(LargeRealMeshes, FaceOntoItsPlanarCopy) {
+    // The copy is conformal to the face; loops are matched by position.
+    const Surface source = surface("alex_3.obj"), copy = surface("mcqc3d_planar_src.obj");
+    const ExtremalMapOntoSurface result = extremal_map(source, copy);
+    EXPECT_LT(result.plane.k, 0.02);
+    EXPECT_TRUE(result.plane.one_to_one());
+    EXPECT_EQ(result.plane.start_flips, 0);
 }
 
 TEST_F(LargeRealMeshes, WavyRing) {

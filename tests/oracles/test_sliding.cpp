@@ -210,12 +210,15 @@ TEST(SlidingClasses, RotatingTheStartChangesNothing) {
     const TargetDomain target = circles_target({{-0.5, -0.2, 0.15}, {0.3, 0.3, 0.3}});
     const ExtremalMapOnto plain = extremal_map(source, target);
     expect_sound(plain);
-    for (const std::vector<double>& turns : {std::vector<double>{0.5, 0, 0}, {0, 1, -1}, {0.3, -2, 2}, {0, 0.7, 0}}) {
+    for (const std::vector<double>& turns :
+         {std::vector<double>{0.5, 0, 0}, {0, 1, -1}, {0.3, -2, 2}, {0, 0.7, 0}, {0, 2, 2}, {1, 0, 0}, {2, 0, 0}}) {
         OntoOptions options;
         options.start_turns = turns;
         const ExtremalMapOnto turned = extremal_map(source, target, options);
         expect_sound(turned);
         EXPECT_NEAR(turned.k, plain.k, 1e-5);
+        // Loops turn back before anything is led, and the iteration is as short as without the turns.
+        EXPECT_LE(turned.iterations, plain.iterations + 8);
     }
 }
 
@@ -260,6 +263,63 @@ TEST(SlidingInvariance, TurningScalingAndRenumberingChangeNothing) {
         renumbered.faces.add({n - 1 - corners[0], n - 1 - corners[1], n - 1 - corners[2]});
     }
     EXPECT_NEAR(extremal_map(Surface(renumbered), target).k, k, 1e-7);
+}
+
+TEST(SlidingInvariance, MoebiusImagesOfADomainAreFoundConformal) {
+    const std::vector<Hole> holes{{-0.4, 0.1, 0.2}, {0.35, 0.3, 0.12}, {0.2, -0.45, 0.15}};
+    const Surface source(disk_with_holes(holes, 0.08));
+    for (const DiskMoebius& move : {DiskMoebius{0, 0}, DiskMoebius{2.2, {0.5, 0.2}}, DiskMoebius{-2.6, {-0.35, 0.6}}}) {
+        std::vector<Hole> images;
+        for (const int h : {2, 0, 1}) {  // in another order
+            const RoundHole image = move(RoundHole{h, {holes[h][0], holes[h][1]}, holes[h][2]});
+            images.push_back({image.centre.real(), image.centre.imag(), image.radius});
+        }
+        const TargetDomain target = circles_target(images);
+        const ExtremalMapOnto result = extremal_map(source, target);
+        expect_sound(result);
+        EXPECT_LT(result.k, 1e-3);
+        EXPECT_EQ(result.start_flips, 0);
+        for (const LoopOnto& loop : result.loops) {
+            if (loop.loop == 0) continue;
+            const Complex at(source.mesh.positions(source.topology.boundary_loops[loop.loop][0], 0),
+                             source.mesh.positions(source.topology.boundary_loops[loop.loop][0], 1));
+            const TargetCurve& curve = target.curve(loop.curve);
+            EXPECT_NEAR(std::abs(move(at) - curve.centre()), curve.radius(), 1e-6);
+        }
+    }
+}
+
+TEST(SlidingInvariance, AMoebiusImageOfTheTargetChangesNothing) {
+    const Surface source(disk_with_holes({{-0.4, 0.1, 0.2}, {0.35, 0.3, 0.12}, {0.2, -0.45, 0.15}}, 0.06));
+    const std::vector<Hole> near{{-0.5, 0, 0.2}, {0.4, 0.2, 0.18}, {0.2, -0.5, 0.1}};
+    const ExtremalMapOnto plain = extremal_map(source, circles_target(near));
+    const DiskMoebius move{1.3, {0.4, -0.3}};
+    std::vector<Hole> far;
+    for (const Hole& hole : near) {
+        const RoundHole image = move(RoundHole{0, {hole[0], hole[1]}, hole[2]});
+        far.push_back({image.centre.real(), image.centre.imag(), image.radius});
+    }
+    const ExtremalMapOnto moved = extremal_map(source, circles_target(far));
+    expect_sound(moved);
+    EXPECT_GT(plain.k, 0.05);
+    EXPECT_NEAR(moved.k, plain.k, 5e-4);
+    for (std::size_t l = 0; l < plain.loops.size(); ++l) EXPECT_EQ(moved.loops[l].curve, plain.loops[l].curve);
+}
+
+TEST(SlidingInvariance, AMarkThatTurnsTheRingChangesNothing) {
+    const Surface source(disk_with_holes({{0, 0, 0.5}}, 0.1));
+    const TargetDomain target = circles_target({{0, 0, 0.3}});
+    const double exact = k_of(std::log(0.3) / std::log(0.5));
+    for (const double turn : {0.0, 1.5, 3.0, -2.0}) {
+        OntoOptions options;
+        const int vertex = source.topology.boundary_loops[0][0];
+        const Complex z(source.mesh.positions(vertex, 0), source.mesh.positions(vertex, 1));
+        options.marks = {{vertex, 0, target.outer.wrap(std::arg(z) + turn)}};
+        const ExtremalMapOnto result = extremal_map(source, target, options);
+        expect_sound(result);
+        EXPECT_NEAR(result.k, exact, 2e-3);
+        EXPECT_NEAR(std::abs(result.map[vertex] - z * std::polar(1.0, turn)), 0, 1e-9);
+    }
 }
 
 class SymmetricHoles : public testing::TestWithParam<int> {};

@@ -13,6 +13,7 @@ GridQuality grid_quality(const Mesh& grid, const Positions& normals) {
     if (grid.faces.empty()) return quality;
     quality.min_angle = std::numbers::pi;
     double smallest = std::numeric_limits<double>::infinity(), largest = 0;
+    int quads = 0;
     for (int f = 0; f < grid.face_count(); ++f) {
         const auto corners = grid.faces[f];
         const int n = static_cast<int>(corners.size());
@@ -30,15 +31,17 @@ GridQuality grid_quality(const Mesh& grid, const Positions& normals) {
             if (turn.dot(area) < 0) angle = 2 * std::numbers::pi - angle;
             quality.min_angle = std::min(quality.min_angle, angle);
             quality.max_angle = std::max(quality.max_angle, angle);
+            if (n == 4) quality.mean_skew += std::abs(angle - std::numbers::pi / 2) / 4;
             shortest = std::min(shortest, ahead.norm());
             longest = std::max(longest, ahead.norm());
         }
         if (folded) quality.folded.push_back(f);
         quality.mean_aspect += longest / shortest;
         quality.max_aspect = std::max(quality.max_aspect, longest / shortest);
-        if (n == 4) smallest = std::min(smallest, area.norm()), largest = std::max(largest, area.norm());
+        if (n == 4) ++quads, smallest = std::min(smallest, area.norm()), largest = std::max(largest, area.norm());
     }
     quality.mean_aspect /= grid.face_count();
+    if (quads > 0) quality.mean_skew /= quads;
     if (largest > 0) quality.area_ratio = largest / smallest;
     return quality;
 }

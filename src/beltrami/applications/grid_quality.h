@@ -10,6 +10,7 @@ namespace beltrami {
 struct GridQuality {
     double min_angle = 0;
     double max_angle = 0;
+    double mean_skew = 0;    ///< how far a corner of a quad is from a right angle, the mean over all of them
     double mean_aspect = 0;  ///< longest edge of a face over its shortest, the mean over all faces
     double max_aspect = 0;
     double area_ratio = 1;    ///< largest area of a quad over the smallest

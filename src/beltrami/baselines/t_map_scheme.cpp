@@ -72,7 +72,6 @@ class Scheme {
             }
         }
         result_.factorizations = sliding_.factorization_count() + fixed_count_;
-        result_.distortion = distortion(source_.operators, result_.map);
         return std::move(result_);
     }
     const SlidingBoundary& boundary() const { return boundary_; }
@@ -152,23 +151,16 @@ void TMapSchemeOptions::validate() const {
 TMapSchemeResult t_map_scheme(const Surface& source, const SlidingStart& start, const TMapSchemeOptions& options) {
     options.validate();
     require_genus_zero(source);
-    if (start.map.size() != source.mesh.vertex_count() || start.curves.size() != source.topology.boundary_loops.size())
-        throw Error(Cause::bad_option, "the start belongs to another source", "make it with flow_start");
+    require_start_of(source, start);
     Scheme scheme(source, start, options);
     TMapSchemeResult result = scheme.run();
-    result.factorizations += start.factorizations;
-    result.loops = loops_onto(source, scheme.boundary(), start.curves, result.map);
+    record_map(source, start, scheme.boundary(), result);
     try {
         require_not_collapsed(result.loops);
     } catch (const Error& error) {
         result.warnings.push_back(error.what());
     }
-    if (!result.distortion.flipped.empty())
-        result.warnings.push_back("flipped faces in the result: " + std::to_string(result.distortion.flipped.size()) +
-                                  "; it is not one-to-one there");
-    if (result.termination == Termination::iteration_limit)
-        result.warnings.push_back("stopped after " + std::to_string(result.solves) +
-                                  " solves before the coefficient settled");
+    warn_of_folds_and_limit(std::to_string(result.solves) + " solves before the coefficient settled", result);
     return result;
 }
 

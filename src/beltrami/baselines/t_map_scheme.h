@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <beltrami/flow/flow_start.h>
+#include <beltrami/flow/slid_map.h>
 
 namespace beltrami {
 
@@ -37,17 +38,9 @@ struct TMapSchemeOptions {
     void validate() const;
 };
 
-struct TMapSchemeResult {
-    Eigen::VectorXcd map;  ///< #V
-    Distortion distortion;
-    std::vector<LoopOnto> loops;
-    Termination termination = Termination::converged;
+struct TMapSchemeResult : SlidMap {
     int solves = 0;
-    int factorizations = 0;
     std::vector<TMapSolve> history;  ///< one entry a solve, after the start's own
-    std::vector<std::string> warnings;
-
-    bool one_to_one() const { return distortion.flipped.empty() && distortion.degenerate.empty(); }
 };
 
 /// The scheme of Ng, Gu & Lui 2013 for the extremal map onto a domain whose boundary slides (Algorithm 3), kept as the

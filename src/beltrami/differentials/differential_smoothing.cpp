@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <beltrami/mesh/parallel.h>
+
 namespace beltrami {
 
 namespace {
@@ -24,6 +26,7 @@ DifferentialSmoothing::DifferentialSmoothing(const Surface& source, const Chart&
     for (const int v : marked) marks_.push_back(chart.vertices[v]);
     factors_.resize(operators.sample_count());
     for (int s = 0; s < operators.sample_count(); ++s) factors_[s] = pole_factor(chart.positions[s]);
+    inverse_factors_ = factors_.cwiseInverse();
     for (int v = 0; v < operators.vertex_count; ++v) {
         const Complex factor = pole_factor(chart.vertices[v]);
         const bool known = source.topology.on_boundary[v] && std::norm(factor) > 0;
@@ -34,18 +37,33 @@ DifferentialSmoothing::DifferentialSmoothing(const Surface& source, const Chart&
     for (int s = 0; s < operators.sample_count(); ++s)
         if (!chart.excluded[s])
             for (const int v : operators.stencil(s)) stars[v].push_back(s);
-    std::vector<int> wider;
-    for (int v = 0; v < operators.vertex_count; ++v) {
-        if (!source.topology.on_boundary[v]) {
-            add_fit(stars[v], chart.vertices[v], kInner);
-            continue;
+    std::vector<int> counts(operators.vertex_count);
+    std::vector<Fit> chunks(static_cast<std::size_t>(operators.vertex_count) / default_grain + 1);
+    parallel_for(0, operators.vertex_count, [&](int begin, int end) {
+        Fit& fit = chunks[begin / default_grain];
+        std::vector<int> wider;
+        for (int v = begin; v < end; ++v) {
+            const std::size_t before = fit.samples.size();
+            if (source.topology.on_boundary[v]) {
+                wider.clear();
+                for (const int s : stars[v])
+                    for (const int w : operators.stencil(s))
+                        wider.insert(wider.end(), stars[w].begin(), stars[w].end());
+                std::sort(wider.begin(), wider.end());
+                wider.erase(std::unique(wider.begin(), wider.end()), wider.end());
+                add_fit(fit, wider, chart.vertices[v], kRim);
+            } else {
+                add_fit(fit, stars[v], chart.vertices[v], kInner);
+            }
+            counts[v] = static_cast<int>(fit.samples.size() - before);
         }
-        wider.clear();
-        for (const int s : stars[v])
-            for (const int w : operators.stencil(s)) wider.insert(wider.end(), stars[w].begin(), stars[w].end());
-        std::sort(wider.begin(), wider.end());
-        wider.erase(std::unique(wider.begin(), wider.end()), wider.end());
-        add_fit(wider, chart.vertices[v], kRim);
+    });
+    for (const int count : counts) offsets_.push_back(offsets_.back() + count);
+    samples_.reserve(offsets_.back());
+    weights_.reserve(offsets_.back());
+    for (const Fit& fit : chunks) {
+        samples_.insert(samples_.end(), fit.samples.begin(), fit.samples.end());
+        weights_.insert(weights_.end(), fit.weights.begin(), fit.weights.end());
     }
 }
 
@@ -55,40 +73,37 @@ Complex DifferentialSmoothing::pole_factor(Complex z) const {
     return factor;
 }
 
-/// Weights with which values at samples make up the value at a place of the polynomial that fits best (by area).
-void DifferentialSmoothing::add_fit(const std::vector<int>& around, Complex place, int coefficients) {
+/// Those of the polynomial that fits best (by area).
+void DifferentialSmoothing::add_fit(Fit& fit, const std::vector<int>& around, Complex place, int coefficients) const {
     const auto area = [&](int s) { return source_.operators.weights[s] * std::norm(chart_.derivatives[s]); };
     double mass = 0, spread = 0;
     for (const int s : around) {
         mass += area(s);
         spread += area(s) * std::norm(chart_.positions[s] - place);
     }
-    if (mass > 0) {
-        const double scale = std::sqrt(spread / mass);
-        int n = std::clamp(static_cast<int>(around.size()) / kSamplesPerCoefficient, 1, coefficients);
-        Eigen::VectorXcd first;  // row of the inverse of the Gram matrix that gives the constant coefficient
-        for (; n > 1; --n) {
-            Eigen::MatrixXcd gram = Eigen::MatrixXcd::Zero(n, n);
-            Eigen::VectorXcd powers(n);
-            for (const int s : around) {
-                powers[0] = 1;
-                for (int j = 1; j < n; ++j) powers[j] = powers[j - 1] * (chart_.positions[s] - place) / scale;
-                gram += area(s) / mass * powers.conjugate() * powers.transpose();
-            }
-            const Eigen::LDLT<Eigen::MatrixXcd> factors(gram);
-            if (!(factors.vectorD().real().minCoeff() > kDetermined)) continue;
-            first = factors.solve(Eigen::VectorXcd::Unit(n, 0)).conjugate();
-            break;
-        }
+    if (!(mass > 0)) return;
+    const double scale = std::sqrt(spread / mass);
+    int n = std::clamp(static_cast<int>(around.size()) / kSamplesPerCoefficient, 1, coefficients);
+    Eigen::VectorXcd first;  // row of the inverse of the Gram matrix that gives the constant coefficient
+    for (; n > 1; --n) {
+        Eigen::MatrixXcd gram = Eigen::MatrixXcd::Zero(n, n);
+        Eigen::VectorXcd powers(n);
         for (const int s : around) {
-            Complex weight = n > 1 ? first[n - 1] : 1.0;
-            for (int j = n - 2; j >= 0; --j)
-                weight = weight * std::conj((chart_.positions[s] - place) / scale) + first[j];
-            samples_.push_back(s);
-            weights_.push_back(area(s) / mass * weight);
+            powers[0] = 1;
+            for (int j = 1; j < n; ++j) powers[j] = powers[j - 1] * (chart_.positions[s] - place) / scale;
+            gram += area(s) / mass * powers.conjugate() * powers.transpose();
         }
+        const Eigen::LDLT<Eigen::MatrixXcd> factors(gram);
+        if (!(factors.vectorD().real().minCoeff() > kDetermined)) continue;
+        first = factors.solve(Eigen::VectorXcd::Unit(n, 0)).conjugate();
+        break;
     }
-    offsets_.push_back(static_cast<int>(samples_.size()));
+    for (const int s : around) {
+        Complex weight = n > 1 ? first[n - 1] : 1.0;
+        for (int j = n - 2; j >= 0; --j) weight = weight * std::conj((chart_.positions[s] - place) / scale) + first[j];
+        fit.samples.push_back(s);
+        fit.weights.push_back(area(s) / mass * weight);
+    }
 }
 
 Eigen::VectorXcd DifferentialSmoothing::operator()(const Eigen::VectorXcd& phi) const {
@@ -101,7 +116,8 @@ Eigen::VectorXcd DifferentialSmoothing::operator()(const Eigen::VectorXcd& phi) 
         at_vertices[v] = square == 0.0 ? value : std::real(value * square) / square;
     }
     Eigen::VectorXcd result = at_samples(source_.operators, at_vertices);
-    for (Eigen::Index s = 0; s < result.size(); ++s) result[s] = chart_.excluded[s] ? 0.0 : result[s] / factors_[s];
+    for (Eigen::Index s = 0; s < result.size(); ++s)
+        result[s] = chart_.excluded[s] ? 0.0 : result[s] * inverse_factors_[s];
     return result;
 }
 

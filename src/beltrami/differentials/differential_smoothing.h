@@ -27,13 +27,18 @@ class DifferentialSmoothing {
   private:
     /// Π (z − mark).
     Complex pole_factor(Complex z) const;
-    void add_fit(const std::vector<int>& around, Complex place, int coefficients);
+    /// Weights with which values at samples make up the value at a place.
+    struct Fit {
+        std::vector<int> samples;
+        std::vector<Complex> weights;
+    };
+    void add_fit(Fit& fit, const std::vector<int>& around, Complex place, int coefficients) const;
 
     const Surface& source_;
     const Chart& chart_;
     Eigen::VectorXcd squared_tangents_;  ///< #V of φ times the pole factor; 0 where nothing is known
     std::vector<Complex> marks_;
-    Eigen::VectorXcd factors_;  ///< #S
+    Eigen::VectorXcd factors_, inverse_factors_;  ///< #S
     /// The value at vertex v is a sum over its samples: offsets[v] … offsets[v+1].
     std::vector<int> offsets_{0}, samples_;
     std::vector<Complex> weights_;

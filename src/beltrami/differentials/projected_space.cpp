@@ -4,13 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <sstream>
 
 #include <beltrami/differentials/differential_smoothing.h>
 #include <beltrami/differentials/dimension.h>
 #include <beltrami/linear/dense.h>
-#include <beltrami/maps/beltrami_solver.h>
 #include <beltrami/mesh/error.h>
+#include <beltrami/mesh/parallel.h>
 
 namespace beltrami {
 
@@ -49,7 +50,9 @@ Eigen::VectorXcd loop_tangents(const Surface& source, const Eigen::VectorXcd& z)
 class Projection {
   public:
     Projection(const Surface& source, const Chart& chart, const ProjectionOptions& options)
-        : source_(source), chart_(chart), solver_(source, freedoms_of(source, options), 1) {
+        : source_(source), chart_(chart), solver_(options.solver) {
+        std::vector<Freedom> freedoms = freedoms_of(source, options);
+        if (!solver_ || solver_->freedoms() != freedoms) solver_ = &own_solver_.emplace(source, std::move(freedoms), 1);
         Eigen::VectorXcd directions =
             options.tangents.size() ? options.tangents : loop_tangents(source, chart.vertices);
         std::vector<int> bad;
@@ -62,22 +65,33 @@ class Projection {
         if (!bad.empty())
             throw Error(Cause::bad_option, "there is no tangent at boundary vertex " + std::to_string(bad.front()),
                         "neighbouring boundary vertices must not coincide in the chart", bad);
-        solver_.factorize(Eigen::VectorXcd::Zero(source.operators.sample_count()), directions);
+        solver_->factorize(Eigen::VectorXcd::Zero(source.operators.sample_count()), directions);
         tangents_ = std::move(directions);
     }
     /// #V unit tangents in the chart.
     const Eigen::VectorXcd& tangents() const { return tangents_; }
 
     /// ∂̄ of the chart is ∂̄/conj(derivative) where it is conformal.
-    Eigen::VectorXcd operator()(const Eigen::VectorXcd& seed) const {
-        const int samples = source_.operators.sample_count();
-        Eigen::VectorXcd offset = Eigen::VectorXcd::Zero(samples), phi = offset;
-        for (int s = 0; s < samples; ++s)
-            if (!chart_.excluded[s]) offset[s] = -std::conj(chart_.derivatives[s]) * seed[s];
-        const Eigen::VectorXcd V = solver_.solve(Eigen::VectorXcd::Zero(source_.operators.vertex_count), offset);
-        for (int s = 0; s < samples; ++s)
-            if (!chart_.excluded[s])
-                phi[s] = std::conj(seed[s]) - std::conj(source_.operators.derivatives(s, V)[1]) / chart_.derivatives[s];
+    /// @param seeds #S × any number
+    Eigen::MatrixXcd operator()(const Eigen::MatrixXcd& seeds) const {
+        const Eigen::Index samples = source_.operators.sample_count();
+        const int count = static_cast<int>(seeds.cols());
+        Eigen::MatrixXcd offsets = Eigen::MatrixXcd::Zero(samples, count);
+        parallel_for_each(count, [&](int j) {
+            for (Eigen::Index s = 0; s < samples; ++s)
+                if (!chart_.excluded[s]) offsets(s, j) = -std::conj(chart_.derivatives[s]) * seeds(s, j);
+        });
+        const Eigen::MatrixXcd fields = solver_->solve_offsets(offsets);
+        const Eigen::VectorXcd inverse = chart_.derivatives.cwiseInverse();
+        Eigen::MatrixXcd& phi = offsets;
+        parallel_for_each(count, [&](int j) {
+            const Eigen::VectorXcd V = fields.col(j);
+            for (Eigen::Index s = 0; s < samples; ++s) {
+                if (chart_.excluded[s]) continue;
+                const Complex dV = source_.operators.derivatives(static_cast<int>(s), V)[1];
+                phi(s, j) = std::conj(seeds(s, j)) - std::conj(dV) * inverse[s];
+            }
+        });
         return phi;
     }
 
@@ -95,7 +109,8 @@ class Projection {
 
     const Surface& source_;
     const Chart& chart_;
-    BeltramiSolver solver_;
+    BeltramiSolver* solver_;
+    std::optional<BeltramiSolver> own_solver_;
     Eigen::VectorXcd tangents_;
 };
 
@@ -185,15 +200,17 @@ ProjectedSpace projected_space(const Surface& source, const Chart& chart, const 
     for (int s = 0; s < samples; ++s)
         areas[s] = chart.excluded[s] ? 0.0 : source.operators.weights[s] * std::norm(chart.derivatives[s]);
     const Projection project(source, chart, options);
-    Eigen::MatrixXcd phi(samples, seeds.cols());
-    for (Eigen::Index j = 0; j < seeds.cols(); ++j) {
+    const int count = static_cast<int>(seeds.cols());
+    Eigen::VectorXd lengths(count);
+    parallel_for_each(count, [&](int j) {
         double square = 0;
         for (int s = 0; s < samples; ++s)
             if (!chart.excluded[s]) square += areas[s] * std::norm(seeds(s, j));
-        phi.col(j) = project(seeds.col(j) / std::sqrt(std::max(square, std::numeric_limits<double>::min())));
-    }
+        lengths[j] = std::sqrt(std::max(square, std::numeric_limits<double>::min()));
+    });
+    Eigen::MatrixXcd phi = project(seeds * lengths.cwiseInverse().asDiagonal());
     const DifferentialSmoothing smoothed(source, chart, project.tangents(), options.marked);
-    for (Eigen::Index j = 0; j < seeds.cols(); ++j) phi.col(j) = smoothed(phi.col(j));
+    parallel_for_each(count, [&](int j) { phi.col(j) = smoothed(phi.col(j)); });
     const double tame = kTame * kTame * areas.sum();
     for (int s = 0; s < samples; ++s)
         for (const int v : options.marked) {

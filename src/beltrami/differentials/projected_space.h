@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <beltrami/differentials/tabulated_space.h>
+#include <beltrami/maps/beltrami_solver.h>
 
 namespace beltrami {
 
@@ -13,6 +14,9 @@ struct ProjectionOptions {
     Eigen::VectorXcd tangents = {};  ///< #V of the true boundary curves in the chart, any length and sign; ignored at
                                      ///< inner vertices; empty: of the circles through three neighbours of a loop
     double least_gap = 50;           ///< of the eigenvalues, below which a warning is given
+    /// A solver to be factorised and used if its freedoms are those that the fields V have (else one is made): the
+    /// ordering and analysis of its system need not be done twice.
+    BeltramiSolver* solver = nullptr;
     /// @throw Error bad_option if a value is impossible
     void validate(const Surface& source) const;
 };

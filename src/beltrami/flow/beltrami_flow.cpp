@@ -121,8 +121,7 @@ FlowMap beltrami_flow(const Surface& source, const Eigen::VectorXcd& mu, const S
     options.validate();
     require_genus_zero(source);
     require_coefficient(source, mu);
-    if (start.map.size() != source.mesh.vertex_count() || start.curves.size() != source.topology.boundary_loops.size())
-        throw Error(Cause::bad_option, "the start belongs to another source", "make it with flow_start");
+    require_start_of(source, start);
     FlowMap result;
     result.map = start.map;
     SlidingBoundary boundary(source, start.loops);
@@ -144,10 +143,9 @@ FlowMap beltrami_flow(const Surface& source, const Eigen::VectorXcd& mu, const S
             break;
         }
     }
-    result.factorizations = start.factorizations + step.factorization_count();
-    result.distortion = distortion(source.operators, result.map);
+    result.factorizations = step.factorization_count();
+    record_map(source, start, boundary, result);
     result.error = result.history.back().error;
-    result.loops = loops_onto(source, boundary, start.curves, result.map);
     require_not_collapsed(result.loops);
     result.fits = result.error.misfit < std::max(kMisfit * result.error.residual, kRounding);
     if (!result.fits)
@@ -155,12 +153,7 @@ FlowMap beltrami_flow(const Surface& source, const Eigen::VectorXcd& mu, const S
             "the coefficient does not belong to a map onto this target: the relative residual is " +
             std::to_string(result.error.residual) + ", of which " + std::to_string(result.error.misfit) +
             " are no error of the mesh; the map is the least-squares one");
-    if (!result.distortion.flipped.empty())
-        result.warnings.push_back("flipped faces in the result: " + std::to_string(result.distortion.flipped.size()) +
-                                  "; it is not one-to-one there");
-    if (result.termination == Termination::iteration_limit)
-        result.warnings.push_back("stopped after " + std::to_string(result.iterations) +
-                                  " iterations before the map settled");
+    warn_of_folds_and_limit(std::to_string(result.iterations) + " iterations before the map settled", result);
     return result;
 }
 

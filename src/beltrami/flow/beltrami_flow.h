@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <beltrami/flow/flow_start.h>
+#include <beltrami/flow/slid_map.h>
 
 namespace beltrami {
 
@@ -45,21 +46,13 @@ struct FlowOptions {
 };
 
 /// A map with a prescribed coefficient, and how well it has it.
-struct FlowMap {
-    Eigen::VectorXcd map;    ///< #V images in the target's plane
-    Distortion distortion;   ///< of map
+struct FlowMap : SlidMap {
     CoefficientError error;  ///< of map
     /// Whether μ belongs to a map onto this target as far as the mesh can tell: the misfit is below 0.4 of the
     /// residual, or both are rounding.
     bool fits = true;
-    std::vector<LoopOnto> loops;  ///< in the order of the source's loops
-    Termination termination = Termination::converged;
     int iterations = 0;
-    int factorizations = 0;
     std::vector<FlowIteration> history;
-    std::vector<std::string> warnings;
-
-    bool one_to_one() const { return distortion.flipped.empty() && distortion.degenerate.empty(); }
 };
 
 /// The Beltrami holomorphic flow of Ng, Gu & Lui 2013 (sections 5.1 and 6.1): from a start to the map with a given

@@ -33,6 +33,7 @@ TriangulateOptions triangulate_options(const DomainOptions& options, SizeField s
     result.size = std::move(size);
     result.min_angle = options.min_angle;
     result.split_ears = options.split_ears;
+    result.smoothing_passes = options.smoothing_passes;
     return result;
 }
 

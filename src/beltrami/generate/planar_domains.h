@@ -35,6 +35,7 @@ struct DomainOptions {
     std::vector<Eigen::Vector2d> interior_points = {};  ///< places that must be vertices
     double min_angle = 0.489;                           ///< radians, see TriangulateOptions
     bool split_ears = true;                             ///< see TriangulateOptions
+    int smoothing_passes = 6;                           ///< see TriangulateOptions
     JitterOptions jitter = {};
     /// @throw Error bad_option if a value is impossible
     void validate() const;

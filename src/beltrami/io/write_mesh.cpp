@@ -83,12 +83,25 @@ void require_columns_fit(const std::vector<Column>& columns, int rows, std::set<
     }
 }
 
+void require_shades_fit(const Mesh& mesh, const std::vector<Shade>& shades) {
+    if (shades.empty() || shades.size() == static_cast<std::size_t>(mesh.face_count())) return;
+    throw Error(Cause::bad_option, fmt::format("{} faces have {} shades", mesh.face_count(), shades.size()),
+                "give one for each face");
+}
+
+int grey(Shade shade) {
+    return shade == Shade::light ? 240 : 40;
+}
+
 /// The rows of a PLY body, of which each encoding writes the numbers its own way.
 class PlyRows {
   public:
     PlyRows(Buffer& out, PlyEncoding encoding) : out_(out), ascii_(encoding == PlyEncoding::ascii) {}
 
     void value(double number) { ascii_ ? append_all(out_, separator(), number) : append_binary(out_, number); }
+    void byte(int number) {
+        ascii_ ? append_all(out_, separator(), number) : append_binary(out_, static_cast<std::uint8_t>(number));
+    }
     void list(std::span<const int> entries) {
         const auto length = static_cast<std::uint8_t>(entries.size());
         ascii_ ? append_all(out_, separator(), static_cast<int>(length)) : append_binary(out_, length);
@@ -116,7 +129,9 @@ TextureCoordinates texture_of_map(const Mesh& mesh, const Positions& map) {
     return {map, mesh.faces.vertices()};
 }
 
-void write_obj(const std::filesystem::path& path, const Mesh& mesh, const std::optional<TextureCoordinates>& texture) {
+void write_obj(const std::filesystem::path& path, const Mesh& mesh, const std::optional<TextureCoordinates>& texture,
+               const std::vector<Shade>& shades) {
+    require_shades_fit(mesh, shades);
     const auto names_a_point = [&](int point) { return point >= -1 && point < texture->points.rows(); };
     if (texture && (texture->points.cols() != 2 ||
                     texture->corners.size() != static_cast<std::size_t>(mesh.faces.corner_count()) ||
@@ -134,6 +149,8 @@ void write_obj(const std::filesystem::path& path, const Mesh& mesh, const std::o
         append_all(out, "vt ", texture->points(point, 0), " ", texture->points(point, 1), "\n");
     }
     for (int face = 0; face < mesh.face_count(); ++face) {
+        if (!shades.empty() && (face == 0 || shades[face] != shades[face - 1]))
+            append(out, shades[face] == Shade::light ? "usemtl light\n" : "usemtl dark\n");
         append(out, "f");
         for (int corner = mesh.faces.first_corner(face); corner < mesh.faces.first_corner(face + 1); ++corner) {
             append_all(out, " ", mesh.faces.vertices()[corner] + 1);
@@ -145,7 +162,9 @@ void write_obj(const std::filesystem::path& path, const Mesh& mesh, const std::o
     write(path, out);
 }
 
-void write_off(const std::filesystem::path& path, const Mesh& mesh, const std::optional<Positions>& map) {
+void write_off(const std::filesystem::path& path, const Mesh& mesh, const std::optional<Positions>& map,
+               const std::vector<Shade>& shades) {
+    require_shades_fit(mesh, shades);
     if (map) require_map_fits(mesh, *map);
     Buffer out;
     append_all(out, map ? "STOFF\n" : "OFF\n", mesh.vertex_count(), " ", mesh.face_count(), " 0\n");
@@ -157,14 +176,18 @@ void write_off(const std::filesystem::path& path, const Mesh& mesh, const std::o
     for (int face = 0; face < mesh.face_count(); ++face) {
         append(out, mesh.faces.degree(face));
         for (const int vertex : mesh.faces[face]) append_all(out, " ", vertex);
+        for (int channel = 0; channel < 3 && !shades.empty(); ++channel) append_all(out, " ", grey(shades[face]));
         append(out, "\n");
     }
     write(path, out);
 }
 
 void write_ply(const std::filesystem::path& path, const Mesh& mesh, const std::vector<Column>& face_columns,
-               const std::vector<Column>& vertex_columns, PlyEncoding encoding) {
-    require_columns_fit(face_columns, mesh.face_count(), {"vertex_indices"});
+               const std::vector<Column>& vertex_columns, PlyEncoding encoding, const std::vector<Shade>& shades) {
+    require_shades_fit(mesh, shades);
+    require_columns_fit(face_columns, mesh.face_count(),
+                        shades.empty() ? std::set<std::string>{"vertex_indices"}
+                                       : std::set<std::string>{"vertex_indices", "red", "green", "blue"});
     require_columns_fit(vertex_columns, mesh.vertex_count(), {"x", "y", "z"});
     Buffer out;
     append_all(out, "ply\nformat ", encoding == PlyEncoding::ascii ? "ascii" : "binary_little_endian", " 1.0\n",
@@ -173,6 +196,7 @@ void write_ply(const std::filesystem::path& path, const Mesh& mesh, const std::v
     for (const Column& column : vertex_columns) append_all(out, "property double ", column.name, "\n");
     append_all(out, "element face ", mesh.face_count(), "\nproperty list uchar int vertex_indices\n");
     for (const Column& column : face_columns) append_all(out, "property double ", column.name, "\n");
+    if (!shades.empty()) append(out, "property uchar red\nproperty uchar green\nproperty uchar blue\n");
     append(out, "end_header\n");
 
     PlyRows rows(out, encoding);
@@ -184,6 +208,7 @@ void write_ply(const std::filesystem::path& path, const Mesh& mesh, const std::v
     for (int face = 0; face < mesh.face_count(); ++face) {
         rows.list(mesh.faces[face]);
         for (const Column& column : face_columns) rows.value(column.values[face]);
+        for (int channel = 0; channel < 3 && !shades.empty(); ++channel) rows.byte(grey(shades[face]));
         rows.end_row();
     }
     write(path, out);
@@ -194,13 +219,13 @@ void write_mesh(const std::filesystem::path& path, const MeshOutput& output) {
     const Mesh& mesh = output.mesh;
     if (output.map) require_map_fits(mesh, *output.map);
     if (extension == ".obj") {
-        write_obj(path, mesh, output.map ? texture_of_map(mesh, *output.map) : mesh.texture);
+        write_obj(path, mesh, output.map ? texture_of_map(mesh, *output.map) : mesh.texture, output.shades);
     } else if (extension == ".off") {
-        write_off(path, mesh, output.map);
+        write_off(path, mesh, output.map, output.shades);
     } else if (extension == ".ply") {
         std::vector<Column> vertex_columns;
         if (output.map) vertex_columns = {{"u", output.map->col(0)}, {"v", output.map->col(1)}};
-        write_ply(path, mesh, output.face_columns, vertex_columns);
+        write_ply(path, mesh, output.face_columns, vertex_columns, PlyEncoding::binary_little_endian, output.shades);
     } else {
         throw Error(
             Cause::unwritable,

@@ -19,6 +19,10 @@ struct Column {
     Eigen::VectorXd values;  ///< #F or #V
 };
 
+/// Two colours for the faces, as of a chess-board: materials called light and dark in OBJ (there is no file of
+/// materials), RGB in PLY and OFF. One a face, or none at all.
+enum class Shade : unsigned char { light, dark };
+
 enum class PlyEncoding { ascii, binary_little_endian };
 
 /// A map of the mesh's vertices to the plane as texture coordinates: one point a vertex, without seams.
@@ -28,34 +32,37 @@ TextureCoordinates texture_of_map(const Mesh& mesh, const Positions& map);
 
 /// Writes a Wavefront OBJ.
 /// @param texture written as vt; pass mesh.texture to keep the mesh's own, or texture_of_map()
-/// @throw Error unwritable; bad_option if the texture does not fit the mesh
+/// @throw Error unwritable; bad_option if the texture or the shades do not fit the mesh
 void write_obj(const std::filesystem::path& path, const Mesh& mesh,
-               const std::optional<TextureCoordinates>& texture = std::nullopt);
+               const std::optional<TextureCoordinates>& texture = std::nullopt, const std::vector<Shade>& shades = {});
 
 /// Writes a text OFF, or a STOFF if there is a map. The mesh's own texture is not written.
 /// @param map #V×2, texture coordinates of the vertices
-/// @throw Error unwritable; bad_option if the map does not fit the mesh
-void write_off(const std::filesystem::path& path, const Mesh& mesh, const std::optional<Positions>& map = std::nullopt);
+/// @throw Error unwritable; bad_option if the map or the shades do not fit the mesh
+void write_off(const std::filesystem::path& path, const Mesh& mesh, const std::optional<Positions>& map = std::nullopt,
+               const std::vector<Shade>& shades = {});
 
 /// Writes a PLY with all numbers as double, without z if the mesh has none. The mesh's own texture is not written.
 /// @param face_columns   further properties of the faces, for instance mu_re, mu_im, abs_mu, K
 /// @param vertex_columns further properties of the vertices; u and v are read back as texture coordinates
-/// @throw Error unwritable; bad_option if a column does not fit the mesh or its name is not a word of its own
+/// @throw Error unwritable; bad_option if shades or a column do not fit the mesh or its name is not a word of its own
 void write_ply(const std::filesystem::path& path, const Mesh& mesh, const std::vector<Column>& face_columns = {},
-               const std::vector<Column>& vertex_columns = {},
-               PlyEncoding encoding = PlyEncoding::binary_little_endian);
+               const std::vector<Column>& vertex_columns = {}, PlyEncoding encoding = PlyEncoding::binary_little_endian,
+               const std::vector<Shade>& shades = {});
 
 /// What write_mesh() writes.
 struct MeshOutput {
     const Mesh& mesh;
     std::optional<Positions> map = std::nullopt;  ///< #V×2: where the vertices go
     std::vector<Column> face_columns = {};
+    std::vector<Shade> shades = {};
 };
 
 /// Writes in the format the extension names, in either case: .obj (the map as vt, or else the mesh's own texture),
 /// .ply (binary; the map as vertex properties u and v, the face columns) or .off (the map as STOFF). Only .ply can hold
 /// face columns, the other formats go without.
-/// @throw Error unwritable, also if the extension is unknown; bad_option if the map or a column does not fit the mesh
+/// @throw Error unwritable, also if the extension is unknown; bad_option if the map, a column or the shades do not fit
+///        the mesh
 void write_mesh(const std::filesystem::path& path, const MeshOutput& output);
 
 }  // namespace beltrami

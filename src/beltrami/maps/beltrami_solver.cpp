@@ -21,6 +21,8 @@ constexpr int kMostUnknowns = 8;  // of one sample: a quad with four free corner
 /// Conjugate gradients with an old factor: best accuracy, and how many steps are cheaper than a new factorisation.
 constexpr double kNearTolerance = 1e-11;
 constexpr int kMostNearSteps = 7;
+/// Right-hand sides that are assembled in one pass over the samples.
+constexpr int kOffsetsAtOnce = 6;
 
 }  // namespace
 
@@ -153,6 +155,29 @@ struct BeltramiSolver::Implementation {
         return rhs;
     }
 
+    /// Adds −Re[(DB)^H W offset] to the right-hand sides of the columns first … last−1 of @p offsets.
+    void subtract_offsets(const Eigen::MatrixXcd& offsets, int first, int last, Eigen::MatrixXd& rhs) const {
+        std::array<Complex, kMostUnknowns> d;
+        for (int s = 0; s < operators.sample_count(); ++s) {
+            const auto unknowns = assembly->unknowns(s);
+            const int count = element(s, d);
+            for (int j = 0; j < count; ++j) d[j] *= weight(s);
+            for (int column = first; column < last; ++column) {
+                const Complex r = offsets(s, column);
+                for (int j = 0; j < count; ++j) {
+                    const int u = unknowns[j];
+                    if (u < 0) continue;
+                    if (decoupled) {
+                        rhs(u, 2 * column) -= d[j].real() * r.real() + d[j].imag() * r.imag();
+                        rhs(u, 2 * column + 1) -= d[j].real() * r.imag() - d[j].imag() * r.real();
+                    } else {
+                        rhs(u, column) -= d[j].real() * r.real() + d[j].imag() * r.imag();
+                    }
+                }
+            }
+        }
+    }
+
     /// The unknowns of a map.
     Eigen::MatrixXd pack(const Eigen::VectorXcd& map, const Eigen::VectorXcd& base) const {
         Eigen::MatrixXd y(assembly->unknown_count(), decoupled ? 2 : 1);
@@ -214,6 +239,9 @@ BeltramiSolver::BeltramiSolver(const Surface& source, std::vector<Freedom> freed
 BeltramiSolver::~BeltramiSolver() = default;
 BeltramiSolver::BeltramiSolver(BeltramiSolver&&) noexcept = default;
 
+const std::vector<Freedom>& BeltramiSolver::freedoms() const {
+    return implementation_->freedom;
+}
 bool BeltramiSolver::decoupled() const {
     return implementation_->decoupled;
 }
@@ -240,6 +268,20 @@ Eigen::VectorXcd BeltramiSolver::solve(const Eigen::VectorXcd& start, const Eige
     const Implementation& m = *implementation_;
     const Eigen::VectorXcd base = m.base_of(start);
     return m.unpack(m.solver->solve(m.right_hand_side(base, offset)), base);
+}
+
+Eigen::MatrixXcd BeltramiSolver::solve_offsets(const Eigen::MatrixXcd& offsets) const {
+    const Implementation& m = *implementation_;
+    const int count = static_cast<int>(offsets.cols());
+    const Eigen::Index each = m.decoupled ? 2 : 1;  // columns of the system for each of them
+    Eigen::MatrixXd rhs = Eigen::MatrixXd::Zero(m.assembly->unknown_count(), each * count);
+    parallel_for(
+        0, count, [&](int first, int last) { m.subtract_offsets(offsets, first, last, rhs); }, kOffsetsAtOnce);
+    const Eigen::MatrixXd y = m.solver->solve(rhs);
+    const Eigen::VectorXcd base = Eigen::VectorXcd::Zero(m.operators.vertex_count);
+    Eigen::MatrixXcd result(m.operators.vertex_count, count);
+    parallel_for_each(count, [&](int j) { result.col(j) = m.unpack(y.middleCols(each * j, each), base); });
+    return result;
 }
 
 Eigen::VectorXd BeltramiSolver::solve_poisson(const Eigen::VectorXd& load) const {

@@ -39,6 +39,11 @@ class BeltramiSolver {
     /// @param offset #S the r of every sample
     Eigen::VectorXcd solve(const Eigen::VectorXcd& start, const Eigen::VectorXcd& offset) const;
 
+    /// The f that minimise Σ A |∂̄f − ν ∂f + r|²/(1−|ν|²) and are 0 at fixed vertices, for many r at once.
+    /// @param offsets #S × any number, one r in each column
+    /// @return #V × as many
+    Eigen::MatrixXcd solve_offsets(const Eigen::MatrixXcd& offsets) const;
+
     /// The real function u, 0 at the fixed vertices, with ∫ ∇u·∇v = Σ load·v for every v: −Δu = load.
     /// @param load #V integrals against the vertices' hat functions
     /// @pre decoupled(), and the last factorisation is of the coefficient 0
@@ -60,6 +65,8 @@ class BeltramiSolver {
     /// With the ν of the last factorize.
     Eigen::VectorXcd gradient(const Eigen::VectorXcd& f) const;
 
+    /// #V as given.
+    const std::vector<Freedom>& freedoms() const;
     bool decoupled() const;
     int factorization_count() const;
 

@@ -128,48 +128,4 @@ Mark nearest_mark(const TargetDomain& domain, int vertex, Complex point) {
     return best;
 }
 
-std::vector<Mark> marks_at_points(const Surface& source, const TargetDomain& domain, const std::vector<int>& partners,
-                                  const std::vector<int>& vertices, const std::vector<Complex>& points) {
-    if (vertices.size() != points.size())
-        throw Error(Cause::bad_option, "there are not as many places as marked vertices", "give one place per vertex");
-    require_partners(source, domain, partners);
-    const LoopPlaces places(source);
-    require_on_boundary(vertices, source, places);
-    std::vector<Mark> marks;
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-        if (!std::isfinite(points[i].real()) || !std::isfinite(points[i].imag()))
-            throw Error(Cause::bad_boundary,
-                        "the place of marked vertex " + std::to_string(vertices[i]) + " is not finite",
-                        "give finite coordinates", {vertices[i]});
-        const int curve = partners[places.loop[vertices[i]]];
-        marks.push_back({vertices[i], curve, domain.curve(curve).nearest(points[i])});
-    }
-    validate(marks, source, domain, partners);
-    return marks;
-}
-
-std::vector<Mark> marks_at_vertices(const Surface& source, const Surface& target, const TargetDomain& domain,
-                                    const std::vector<int>& partners, const std::vector<int>& vertices,
-                                    const std::vector<int>& target_vertices) {
-    if (vertices.size() != target_vertices.size())
-        throw Error(Cause::bad_option, "there are not as many target vertices as marked vertices",
-                    "give one target vertex per vertex");
-    require_partners(source, domain, partners);
-    const LoopPlaces places(source), targets(target);
-    require_on_boundary(vertices, source, places);
-    std::vector<Mark> marks;
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-        const int curve = partners[places.loop[vertices[i]]], w = target_vertices[i];
-        if (w < 0 || w >= target.mesh.vertex_count() || targets.loop[w] != curve)
-            throw Error(Cause::bad_boundary,
-                        "vertex " + std::to_string(vertices[i]) + " is marked with vertex " + std::to_string(w) +
-                            " of the target mesh, which is not on its boundary loop " + std::to_string(curve) +
-                            ", the partner",
-                        "mark boundary vertices of that loop; vertices are counted from 0", {vertices[i], w});
-        marks.push_back({vertices[i], curve, domain.curve(curve).knots().at(targets.position[w])});
-    }
-    validate(marks, source, domain, partners);
-    return marks;
-}
-
 }  // namespace beltrami

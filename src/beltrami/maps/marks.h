@@ -13,24 +13,9 @@ struct Mark {
     double parameter = 0;  ///< arc length on that curve
 };
 
-/// Marks that send boundary vertices to the nearest points of the curves that are the partners of their loops.
-/// @param partners one curve of @p domain per loop of source.topology.boundary_loops
-/// @param vertices of the source
-/// @param points   beside vertices
-/// @throw Error bad_boundary as validate, or if a point is not finite
-std::vector<Mark> marks_at_points(const Surface& source, const TargetDomain& domain, const std::vector<int>& partners,
-                                  const std::vector<int>& vertices, const std::vector<Complex>& points);
-
 /// The mark that sends a vertex to the nearest point of the nearest curve (of equally near ones the first).
 /// @throw Error bad_boundary if the point is not finite
 Mark nearest_mark(const TargetDomain& domain, int vertex, Complex point);
-
-/// Marks that send boundary vertices to boundary vertices of a target mesh, whose domain is boundary_domain(target).
-/// @param target_vertices beside vertices
-/// @throw Error bad_boundary as validate, or naming target vertices that are not on the partner of their loop
-std::vector<Mark> marks_at_vertices(const Surface& source, const Surface& target, const TargetDomain& domain,
-                                    const std::vector<int>& partners, const std::vector<int>& vertices,
-                                    const std::vector<int>& target_vertices);
 
 /// @throw Error bad_option unless partners pairs every loop with a curve of its own; bad_boundary naming vertices that
 ///        are not on the boundary or marked twice, marks that are not on the partner of their loop, fall on one place

@@ -1,6 +1,7 @@
 #include <beltrami/maps/prescribed_split.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include <beltrami/mesh/polygon.h>
 #include <beltrami/mesh/segment_tree.h>
@@ -281,6 +282,18 @@ SplitProblem split_prescribed(const Surface& source, const BoundaryCondition& bo
     }
     if (texture) result.mesh.texture = texture->finish(std::move(texture_corners));
     return result;
+}
+
+SplitProblem split_bridges(const Surface& source) {
+    // Any values will do: every edge whose image could matter is a bridge.
+    BoundaryCondition boundary;
+    const auto& loops = source.topology.boundary_loops;
+    for (std::size_t l = 0; l < loops.size(); ++l) {
+        const double turn = 2 * std::numbers::pi / static_cast<double>(loops[l].size());
+        for (std::size_t i = 0; i < loops[l].size(); ++i)
+            boundary.pin(loops[l][i], std::polar(1.0 + static_cast<double>(l), turn * static_cast<double>(i)));
+    }
+    return split_prescribed(source, boundary);
 }
 
 }  // namespace beltrami

@@ -35,4 +35,9 @@ struct SplitProblem {
 /// @pre validate(boundary, source)
 SplitProblem split_prescribed(const Surface& source, const BoundaryCondition& boundary);
 
+/// Splits the interior edges that join two boundary vertices, at their midpoints, as split_prescribed does: for maps
+/// whose boundary vertices lie on curves, wherever they are there.
+/// @pre source has a boundary
+SplitProblem split_bridges(const Surface& source);
+
 }  // namespace beltrami

@@ -8,6 +8,10 @@
 
 namespace beltrami {
 
+namespace detail {
+struct CurvePieces;
+}
+
 /// Where a curve passes at a parameter, and how.
 struct CurvePlace {
     Complex point;
@@ -82,11 +86,10 @@ class TargetCurve {
     double diameter() const;
 
   private:
-    struct Data;
-    explicit TargetCurve(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
+    explicit TargetCurve(std::shared_ptr<const detail::CurvePieces> data) : data_(std::move(data)) {}
     static TargetCurve through(Kind kind, const std::vector<Complex>& points);
 
-    std::shared_ptr<const Data> data_;
+    std::shared_ptr<const detail::CurvePieces> data_;
 };
 
 }  // namespace beltrami

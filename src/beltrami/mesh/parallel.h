@@ -23,6 +23,16 @@ inline constexpr int default_grain = 4096;
 /// @pre chunks write to different places
 void parallel_for(int begin, int end, const std::function<void(int, int)>& body, int grain = default_grain);
 
+/// Calls body(i) for i = 0 … n-1, each a chunk of its own: for few items that are costly. See parallel_for.
+inline void parallel_for_each(int n, const std::function<void(int)>& body) {
+    parallel_for(
+        0, n,
+        [&](int first, int last) {
+            for (int i = first; i < last; ++i) body(i);
+        },
+        1);
+}
+
 /// zero + Σ body(first, last) over the chunks of 0 … n-1, added in the order of the chunks: the same bytes for any
 /// number of threads.
 /// @param body (int first, int last) → T, the sum over one chunk

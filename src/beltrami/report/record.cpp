@@ -6,6 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include <beltrami/report/text_table.h>
+
 namespace beltrami {
 
 namespace {
@@ -84,7 +86,8 @@ Json to_object(const OntoRecord& onto) {
                    {"expected_dimension", onto.expected_dimension},
                    {"gap", number(onto.gap)},
                    {"K_upper", number(onto.K_upper)},
-                   {"rotation", number(onto.rotation)},
+                   {"rotation", number(onto.move.rotation)},
+                   {"centre", {number(onto.move.centre.real()), number(onto.move.centre.imag())}},
                    {"led", onto.led},
                    {"start_flips", onto.start_flips}};
     Json path = Json::array(), loops = Json::array();
@@ -98,6 +101,30 @@ Json to_object(const OntoRecord& onto) {
     object["path"] = std::move(path);
     object["loops"] = std::move(loops);
     return object;
+}
+
+Json to_object(const GridRecord& grid) {
+    const GridQuality& quality = grid.quality;
+    return {{"carried_by", grid.carried_by},
+            {"lines", to_string(grid.lines)},
+            {"cells", grid.cells},
+            {"border", grid.trimmed ? "trimmed" : "stepped"},
+            {"pattern", grid.checker ? "checker" : "grid"},
+            {"vertices", grid.vertices},
+            {"quads", grid.quads},
+            {"triangles", grid.triangles},
+            {"whole_cells", grid.whole_cells},
+            {"trimmed_cells", grid.trimmed_cells},
+            {"omitted_cells", grid.omitted_cells},
+            {"folded", quality.folded},
+            {"area_part", number(grid.area_part)},
+            {"quality",
+             {{"min_angle", number(quality.min_angle)},
+              {"max_angle", number(quality.max_angle)},
+              {"mean_skew", number(quality.mean_skew)},
+              {"mean_aspect", number(quality.mean_aspect)},
+              {"max_aspect", number(quality.max_aspect)},
+              {"area_ratio", number(quality.area_ratio)}}}};
 }
 
 Json to_rows(const Eigen::MatrixXd& matrix) {
@@ -237,7 +264,7 @@ OntoRecord onto_record(const ExtremalMapOnto& result, const std::string& target)
             result.dimension_gap,
             result.K_upper,
             result.loops,
-            result.rotation,
+            result.move,
             result.path,
             result.led,
             result.start_flips};
@@ -305,6 +332,7 @@ std::string to_json(const Record& record) {
                                  {"before", number(record.least_maximum->before)},
                                  {"after", number(record.least_maximum->after)}};
     if (record.onto) json["onto"] = to_object(*record.onto);
+    if (record.grid) json["grid"] = to_object(*record.grid);
     if (record.distances) json["distances"] = to_object(*record.distances);
     if (!record.comparison.empty()) {
         Json methods = Json::array();
@@ -331,22 +359,7 @@ std::string to_table(const Record& record, const std::string& method) {
     add(method, *record.map, record.solve ? &*record.solve : nullptr);
     for (const MethodRecord& other : record.comparison) add(other.method, other.map, &other.solve);
 
-    std::string table;
-    for (const auto& row : rows) {
-        std::string line;
-        for (std::size_t column = 0; column < row.size(); ++column) {
-            std::size_t width = 0;
-            for (const auto& other : rows) width = std::max(width, other[column].size());
-            const bool unused =
-                std::all_of(rows.begin() + 1, rows.end(), [&](const auto& r) { return r[column].empty(); });
-            if (unused) continue;
-            line +=
-                column == 0 ? fmt::format("{:<{}}", row[column], width) : fmt::format("  {:>{}}", row[column], width);
-        }
-        while (!line.empty() && line.back() == ' ') line.pop_back();
-        table += line + "\n";
-    }
-    return table;
+    return text_table(rows);
 }
 
 std::string to_remarks(const Record& record) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <beltrami/report/grid_record.h>
 #include <beltrami/teichmuller/distance.h>
 #include <beltrami/teichmuller/extremal_map.h>
 #include <beltrami/teichmuller/extremal_onto.h>
@@ -78,7 +79,7 @@ struct OntoRecord {
     double gap = 0;  ///< how clearly the dimension was told
     double K_upper = 1;
     std::vector<LoopOnto> loops;
-    double rotation = 0;
+    DiskMoebius move;
     std::vector<Waypoint> path;
     bool led = false;
     int start_flips = 0;
@@ -110,6 +111,7 @@ struct Record {
     std::optional<CertificateRecord> certificate;
     std::optional<LeastMaximumRecord> least_maximum;
     std::optional<OntoRecord> onto;
+    std::optional<GridRecord> grid;
     std::optional<DistancesRecord> distances;
     std::vector<MethodRecord> comparison;
     std::vector<std::string> warnings;

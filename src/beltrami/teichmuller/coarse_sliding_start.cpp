@@ -19,6 +19,8 @@ constexpr int kWorthFrom = 4'000;
 /// Triangles of the coarse mesh, not counting what holes ask for; edges around a hole.
 constexpr double kTriangles = 2'500;
 constexpr int kHoleEdges = 28;
+/// Of the coarse mesh; more of them cost as much as the coarse problem itself.
+constexpr int kSmoothingPasses = 2;
 /// The coarse problem is solved to this.
 constexpr double kCoarseTolerance = 1e-4;
 
@@ -32,6 +34,7 @@ Surface coarse_domain(const CircleDomainChart& chart) {
     DomainOptions options;
     options.edge_length = std::sqrt(4 / std::sqrt(3.0) * area / kTriangles);
     options.least_hole_edges = kHoleEdges;
+    options.smoothing_passes = kSmoothingPasses;
     return Surface(circle_domain({Eigen::Vector2d::Zero(), 1.0}, circles, options));
 }
 
@@ -106,7 +109,7 @@ std::optional<SlidingStart> coarse_sliding_start(const Surface& source, const Ci
     const ExtremalMapOnto solved = problem.solve(target);
 
     SlidingStart result;
-    result.rotation = solved.rotation;
+    result.move = solved.move;
     result.path = solved.path;
     for (Waypoint& waypoint : result.path)
         waypoint.loop = static_cast<int>(std::find(partner.begin(), partner.end(), waypoint.loop) - partner.begin());

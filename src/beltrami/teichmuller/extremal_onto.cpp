@@ -45,8 +45,9 @@ int curve_of_loop(const CircleDomainChart& chart, int loop) {
                 "`beltrami info` prints the loops' numbers");
 }
 
-/// Options in which loops and vertices of the target have become curves and places of its circle domain.
-OntoOptions on_circles(const OntoOptions& options, const Surface& target, const CircleDomainChart& chart) {
+}  // namespace
+
+OntoOptions options_on_circles(const OntoOptions& options, const Surface& target, const CircleDomainChart& chart) {
     if (!options.marks.empty())
         throw Error(Cause::bad_option, "marks on curves are given for a target that is a surface",
                     "give pairs of vertices instead");
@@ -69,8 +70,6 @@ OntoOptions on_circles(const OntoOptions& options, const Surface& target, const 
     return result;
 }
 
-}  // namespace
-
 ExtremalMapOnto extremal_map(const Surface& source, const TargetDomain& target, const OntoOptions& options) {
     if (!options.mark_vertices.empty())
         throw Error(Cause::bad_option, "marks by vertices of the target are given for a target that has none",
@@ -83,7 +82,7 @@ ExtremalMapOntoSurface extremal_map(const Surface& source, const Surface& target
                                     int outer) {
     ExtremalMapOntoSurface result;
     result.target = circle_domain_chart(target, outer);
-    const OntoOptions own = on_circles(options, target, result.target);
+    const OntoOptions own = options_on_circles(options, target, result.target);
     OntoProblem problem(source, own);
     result.plane = problem.solve(*target_model(circle_target(result.target), 0));
     result.plane.factorizations += result.target.factorizations;

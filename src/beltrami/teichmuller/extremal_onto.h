@@ -79,7 +79,7 @@ struct ExtremalMapOnto {
     double dimension_gap = 0;    ///< how clearly the dimension was told: a ratio of singular values or eigenvalues
     OntoOptions::Space space = OntoOptions::Space::laurent;  ///< how the space was found
     std::vector<LoopOnto> loops;                             ///< in the order of the source's loops
-    double rotation = 0;         ///< of the source's circle domain before the holes were led to their places
+    DiskMoebius move;            ///< of the source's circle domain before the holes were led to their places
     std::vector<Waypoint> path;  ///< the way of the holes, as in options; empty: straight
     bool led = false;            ///< the start was led along the way; else it is the harmonic map
     /// Faces that the harmonic map with the boundary of the start turns over (on the coarse mesh, if there was one).
@@ -121,5 +121,11 @@ struct ExtremalMapOntoSurface {
 /// @param outer   the boundary loop of the target to which the outer loop of the source goes
 ExtremalMapOntoSurface extremal_map(const Surface& source, const Surface& target, const OntoOptions& options = {},
                                     int outer = 0);
+
+/// What the options become where the target's circle domain stands for a target that is a surface: loops are paired
+/// with its curves, mark_vertices are marks on them.
+/// @throw Error bad_option for marks on curves or a loop that the target has not; bad_boundary for a vertex that is not
+///        on its boundary
+OntoOptions options_on_circles(const OntoOptions& options, const Surface& target, const CircleDomainChart& chart);
 
 }  // namespace beltrami

@@ -34,7 +34,7 @@ OntoOptions::Space automatic_kind(const CircleDomainChart& domain, bool quadrila
 }  // namespace
 
 OntoDifferentials onto_differentials(const Surface& source, const CircleDomainChart& domain, OntoOptions::Space wanted,
-                                     const std::vector<int>& marked, int dimension) {
+                                     const std::vector<int>& marked, int dimension, BeltramiSolver* solver) {
     using Space = OntoOptions::Space;
     OntoDifferentials result;
     result.kind = wanted;
@@ -56,6 +56,7 @@ OntoDifferentials onto_differentials(const Surface& source, const CircleDomainCh
         ProjectionOptions how;
         how.marked = marked;
         how.tangents = circle_tangents(source, domain);
+        how.solver = solver;
         ProjectedSpace projected = projected_space(source, domain.chart, how);
         result.gap = projected.gap;
         result.warnings = std::move(projected.warnings);

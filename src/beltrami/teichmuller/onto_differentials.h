@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <beltrami/differentials/differential_space.h>
+#include <beltrami/maps/beltrami_solver.h>
 #include <beltrami/teichmuller/extremal_onto.h>
 
 namespace beltrami {
@@ -22,8 +23,9 @@ struct OntoDifferentials {
 /// @param wanted    how they are to be found
 /// @param marked    vertices in the order of the loops
 /// @param dimension by theory
+/// @param solver    of the source's f-step, which projections may use; or null
 /// @throw Error bad_option, not_solved
 OntoDifferentials onto_differentials(const Surface& source, const CircleDomainChart& domain, OntoOptions::Space wanted,
-                                     const std::vector<int>& marked, int dimension);
+                                     const std::vector<int>& marked, int dimension, BeltramiSolver* solver);
 
 }  // namespace beltrami

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 
 #include <beltrami/differentials/dimension.h>
@@ -21,9 +20,12 @@ namespace {
 constexpr int kExpectedFactorizations = 6;
 /// k, of second order in the direction of φ, settles to this part of the tolerance.
 constexpr double kToleranceOfK = 0.01;
-/// Newton steps of the boundary after the iteration, until no vertex moves by more than this part of its curve.
+/// Newton steps of the boundary after the iteration, each solved to this, until one moves no vertex by more than this
+/// part of its curve.
 constexpr int kLastSteps = 10;
 constexpr double kSettled = 1e-9;
+/// … or by so little that what the step has left over is below that: the next one moves them by less than a hundredth.
+constexpr double kLastMovement = 1e-7;
 /// Newton steps of the boundary where there are no differentials: the map is conformal.
 constexpr int kConformalSteps = 100;
 /// Points of the c-step on large meshes, and what sharper differences of φ ask for.
@@ -83,16 +85,8 @@ OntoProblem::Prepared OntoProblem::prepare(const Surface& source, const OntoOpti
             throw Error(Cause::bad_boundary,
                         "the marked vertex " + std::to_string(mark.vertex) + " is not on the boundary of the source",
                         "mark boundary vertices only", {mark.vertex});
-    // Any values will do: only edges between boundary vertices are split.
-    BoundaryCondition boundary;
-    const auto& all = source.topology.boundary_loops;
-    for (std::size_t l = 0; l < all.size(); ++l)
-        for (std::size_t i = 0; i < all[l].size(); ++i)
-            boundary.pin(all[l][i],
-                         std::polar(1.0 + static_cast<double>(l), 2 * std::numbers::pi * static_cast<double>(i) /
-                                                                      static_cast<double>(all[l].size())));
     Prepared result;
-    SplitProblem split = split_prescribed(source, boundary);
+    SplitProblem split = split_bridges(source);
     if (split.split_edges == 0) return result;
     result.surface = surface_of(split.mesh, split.metric);
     result.split = std::move(split);
@@ -116,7 +110,7 @@ ExtremalMapOnto OntoProblem::solve(const TargetModel& target) {
     hold_what_conformal_maps_move(start.loops, options_.outer_loop, marked_.size());
     ExtremalMapOnto result;
     result.start = start.map;
-    result.rotation = start.rotation;
+    result.move = start.move;
     result.path = start.path;
     result.led = start.led;
     result.start_flips = start.flips;
@@ -126,7 +120,8 @@ ExtremalMapOnto OntoProblem::solve(const TargetModel& target) {
 
     SlidingBoundary boundary(source_, start.loops);
     SlidingMapStep step(source_, boundary, kExpectedFactorizations);
-    OntoDifferentials phi = onto_differentials(source_, domain_, options_.space, marked_, result.expected_dimension);
+    OntoDifferentials phi =
+        onto_differentials(source_, domain_, options_.space, marked_, result.expected_dimension, &step.lend_solver());
     result.space = phi.kind;
     result.dimension_gap = phi.gap;
     result.warnings = phi.warnings;
@@ -169,7 +164,7 @@ void OntoProblem::iterate(OntoDifferentials phi, SlidingBoundary& boundary, Slid
     for (int i = 0; i < kLastSteps && iteration.converged(); ++i) {
         step.solve(nu, result.map, kSettled);
         ++result.iterations;
-        if (step.movement() < kSettled) break;
+        if (step.movement() < kLastMovement) break;
     }
     result.distortion = distortion(source_.operators, result.map);
     if (options_.remove_folds && !result.distortion.flipped.empty()) {

@@ -16,6 +16,11 @@ class SlidingMapStep final : public MapStep {
 
     void solve(const Eigen::VectorXcd& nu, Eigen::VectorXcd& map, double tolerance) override;
 
+    /// The solver, for other systems of the same freedoms; the next solve() factorises again.
+    BeltramiSolver& lend_solver() {
+        movement_ = 1;
+        return solver_;
+    }
     /// Largest movement of a boundary vertex in the last step, as part of its curve's length.
     double movement() const { return movement_; }
     int factorization_count() const { return solver_.factorization_count(); }

@@ -4,9 +4,12 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <string>
 
 #include <beltrami/mesh/error.h>
+#include <beltrami/teichmuller/loop_partners.h>
+#include <beltrami/teichmuller/untwisting.h>
 
 namespace beltrami {
 
@@ -15,82 +18,27 @@ namespace {
 constexpr double kTwoPi = 2 * std::numbers::pi;
 /// Steps on the way of the holes, as part of a straight piece: one that folds is halved.
 constexpr double kLargestStep = 0.5;
-
-std::string loop_name(int loop) {
-    return "boundary loop " + std::to_string(loop);
-}
-
-/// The curve of every loop, and how the source's circle domain is to be turned.
-struct Partners {
-    std::vector<int> curves;
-    double rotation = 0;
-};
-
-Partners partners(const Surface& source, const CircleDomainChart& chart, const TargetModel& target,
-                  const OntoOptions& options) {
-    const int loops = static_cast<int>(source.topology.boundary_loops.size());
-    const int curves = target.domain().curve_count();
-    if (loops != curves)
-        throw Error(Cause::bad_boundary,
-                    "the source has " + std::to_string(loops) + " boundary loops, the target " + std::to_string(curves),
-                    "source and target must have the same number of holes");
-    Partners result;
-    result.curves.assign(loops, -1);
-    result.curves[options.outer_loop] = 0;
-    if (options.loops.empty()) {
-        const CircleMatching matching =
-            match_circle_domains(chart.holes, target.holes(), {options.match_by, options.marks.empty()});
-        for (std::size_t h = 0; h < chart.holes.size(); ++h)
-            result.curves[chart.holes[h].loop] = matching.partner[h] + 1;
-        result.rotation = matching.rotation;
-        return result;
-    }
-    std::vector<char> taken(curves, 0);
-    std::vector<int> given(loops, -1);
-    for (const auto& [loop, curve] : options.loops) {
-        if (loop < 0 || loop >= loops || curve < 0 || curve >= curves)
-            throw Error(Cause::bad_option, "loops pair " + std::to_string(loop) + ":" + std::to_string(curve) +
-                                               ", but there are only loops and curves 0 to " +
-                                               std::to_string(loops - 1));
-        if (given[loop] >= 0 || taken[curve])
-            throw Error(Cause::bad_option,
-                        "loops name loop " + std::to_string(loop) + " or curve " + std::to_string(curve) + " twice");
-        if ((loop == options.outer_loop) != (curve == 0))
-            throw Error(Cause::bad_option,
-                        "the outer loop " + std::to_string(options.outer_loop) + " must go to the outer curve 0",
-                        "name another outer loop");
-        given[loop] = curve;
-        taken[curve] = 1;
-    }
-    given[options.outer_loop] = 0;
-    for (int l = 0; l < loops; ++l)
-        if (given[l] < 0) throw Error(Cause::bad_option, "loops leave out " + loop_name(l), "pair every loop, or none");
-    // The rotation that fits the pairs best.
-    Complex fit = 0;
-    for (const RoundHole& hole : chart.holes) fit += std::conj(hole.centre) * target.circle(given[hole.loop]).centre;
-    result.curves = std::move(given);
-    result.rotation = options.marks.empty() && fit != 0.0 ? std::arg(fit) : 0;
-    return result;
-}
+/// Loops that would turn by less, in radians, are not twisted.
+constexpr double kTwisted = 0.1;
 
 /// Where the vertices of a loop begin on the circle of the model.
 class LoopAngles {
   public:
-    LoopAngles(const Surface& source, const CircleDomainChart& chart, const TargetModel& target,
-               const OntoOptions& options, int loop, int curve, double rotation)
-        : vertices_(source.topology.boundary_loops[loop]), sign_(curve == 0 ? 1 : -1) {
-        const RoundHole circle = chart.circle(loop);
+    LoopAngles(const Surface& source, const LoopPartners& matched, const TargetModel& target,
+               const OntoOptions& options, int loop)
+        : vertices_(source.topology.boundary_loops[loop]), sign_(matched.curves[loop] == 0 ? 1 : -1) {
+        const RoundHole circle = matched.circles[loop];
         const std::size_t n = vertices_.size();
         for (std::size_t i = 0; i < n; ++i) {
-            const Complex z = chart.chart.vertices[vertices_[i]] - circle.centre,
-                          next = chart.chart.vertices[vertices_[(i + 1) % n]] - circle.centre;
+            const Complex z = matched.vertices[vertices_[i]] - circle.centre,
+                          next = matched.vertices[vertices_[(i + 1) % n]] - circle.centre;
             if (i == 0) turns_.push_back(sign_ * std::arg(z));
             turns_.push_back(turns_.back() + sign_ * std::arg(next / z));
         }
         const double ahead = options.start_turns.empty() ? 0 : options.start_turns[loop];
-        for (double& turn : turns_) turn += sign_ * (rotation + ahead);
+        for (double& turn : turns_) turn += sign_ * ahead;
         held_.assign(n, 0);
-        place_marks(target, options, curve);
+        place_marks(target, options, matched.curves[loop]);
         turns_.pop_back();
     }
     /// Angles on the model's circle.
@@ -153,6 +101,60 @@ int folded(const Surface& source, const Eigen::VectorXcd& map) {
     return static_cast<int>(distortion(source.operators, map).flipped.size());
 }
 
+/// Loops on their curves, and the harmonic map of the model that belongs to them.
+struct Placement {
+    std::vector<SlidingLoop> loops;
+    BoundaryCondition model;
+    Eigen::VectorXcd harmonic;
+};
+
+Placement place(const LoopPartners& matched, const Surface& source, const TargetModel& target,
+                const OntoOptions& options) {
+    const auto& loops = source.topology.boundary_loops;
+    Placement result;
+    for (std::size_t l = 0; l < loops.size(); ++l) {
+        const int curve = matched.curves[l];
+        const LoopAngles angles(source, matched, target, options, static_cast<int>(l));
+        const RoundHole circle = target.circle(curve);
+        const std::vector<double> at = angles.angles();
+        SlidingLoop sliding{static_cast<int>(l), target.domain().curve(curve), {}, angles.held()};
+        for (std::size_t i = 0; i < loops[l].size(); ++i) {
+            result.model.pin(loops[l][i], circle.centre + std::polar(circle.radius, at[i]));
+            const double s = sliding.held[i] ? angles.mark_parameters()[i] : target.parameter(curve, at[i]);
+            sliding.parameters.push_back(
+                i == 0 ? s : sliding.parameters.back() + sliding.curve.ahead(sliding.parameters.back(), s));
+        }
+        result.loops.push_back(std::move(sliding));
+    }
+    result.harmonic = harmonic_map(source, result.model);
+    return result;
+}
+
+/// A map of the model carried to the target.
+SlidingStart started(const LoopPartners& matched, const Surface& source, const TargetModel& target,
+                     const Placement& placed, const Eigen::VectorXcd& map) {
+    SlidingStart result;
+    result.curves = matched.curves;
+    result.move = matched.move;
+    result.loops = placed.loops;
+    result.map = target.places(map);
+    for (const SlidingLoop& sliding : result.loops) {
+        const auto& vertices = source.topology.boundary_loops[sliding.loop];
+        for (std::size_t i = 0; i < vertices.size(); ++i)
+            result.map[vertices[i]] = sliding.curve.point(sliding.parameters[i]);
+    }
+    return result;
+}
+
+/// Options whose loops start turned further, if any is to be turned noticeably.
+std::optional<OntoOptions> turned_further(const OntoOptions& options, const std::vector<double>& turns) {
+    if (std::none_of(turns.begin(), turns.end(), [](double turn) { return std::abs(turn) > kTwisted; })) return {};
+    OntoOptions result = options;
+    result.start_turns.resize(turns.size(), 0);
+    for (std::size_t l = 0; l < turns.size(); ++l) result.start_turns[l] += turns[l];
+    return result;
+}
+
 /// Waypoints in the model.
 std::vector<Waypoint> in_model(const TargetModel& target, const std::vector<Waypoint>& waypoints) {
     std::vector<Waypoint> result = waypoints;
@@ -160,49 +162,55 @@ std::vector<Waypoint> in_model(const TargetModel& target, const std::vector<Wayp
     return result;
 }
 
+/// The start from the circle domain as it was moved.
+SlidingStart start_from(const LoopPartners& matched, const Surface& source, const TargetModel& target,
+                        const OntoOptions& options) {
+    Placement placed = place(matched, source, target, options);
+    const int flips = folded(source, placed.harmonic);
+    int factorizations = 1;
+    // Waypoints and marks say how the map is to be twisted.
+    if (flips > 0 && !options.waypoints && options.marks.empty()) {
+        const Untwisting loops =
+            untwisting(source, target, started(matched, source, target, placed, placed.harmonic), options.outer_loop);
+        factorizations += loops.factorizations;
+        if (const auto further = turned_further(options, loops.turns)) {
+            placed = place(matched, source, target, *further);
+            ++factorizations;
+        }
+    }
+    Eigen::VectorXcd map = placed.harmonic;
+    std::vector<Waypoint> path;
+    const bool lead = options.waypoints || folded(source, map) > 0;
+    if (lead) {
+        if (options.waypoints) path = in_model(target, *options.waypoints);
+        const Continuation way(source, matched.vertices, options.outer_loop, placed.model, path);
+        const FollowedMap followed = follow(source, way, kLargestStep);
+        map = followed.map;
+        factorizations += followed.steps;
+    }
+    SlidingStart result = started(matched, source, target, placed, map);
+    result.path = std::move(path);
+    result.led = lead;
+    result.flips = flips;
+    result.factorizations = factorizations;
+    return result;
+}
+
 }  // namespace
 
 SlidingStart sliding_start(const Surface& source, const CircleDomainChart& chart, const TargetModel& target,
                            const OntoOptions& options) {
-    const auto& loops = source.topology.boundary_loops;
-    const Partners matched = partners(source, chart, target, options);
+    const LoopPartners matched = loop_partners(source, chart, target, options);
     validate(options.marks, source, target.domain(), matched.curves);
-    SlidingStart result;
-    result.curves = matched.curves;
-    result.rotation = matched.rotation;
-    BoundaryCondition model;
-    for (std::size_t l = 0; l < loops.size(); ++l) {
-        const int curve = matched.curves[l];
-        const LoopAngles angles(source, chart, target, options, static_cast<int>(l), curve, matched.rotation);
-        const RoundHole circle = target.circle(curve);
-        const std::vector<double> at = angles.angles();
-        SlidingLoop sliding{static_cast<int>(l), target.domain().curve(curve), {}, angles.held()};
-        for (std::size_t i = 0; i < loops[l].size(); ++i) {
-            model.pin(loops[l][i], circle.centre + std::polar(circle.radius, at[i]));
-            const double s = sliding.held[i] ? angles.mark_parameters()[i] : target.parameter(curve, at[i]);
-            sliding.parameters.push_back(
-                i == 0 ? s : sliding.parameters.back() + sliding.curve.ahead(sliding.parameters.back(), s));
-        }
-        result.loops.push_back(std::move(sliding));
+    try {
+        return start_from(matched, source, target, options);
+    } catch (const Error& error) {
+        // Where there is no way from the moved domain there may be one from the turned one; the result says which it
+        // was.
+        if (matched.move.centre == 0.0 || (error.cause() != Cause::not_solved && error.cause() != Cause::bad_boundary))
+            throw;
     }
-
-    Eigen::VectorXcd map = harmonic_map(source, model);
-    result.factorizations = 1;
-    result.flips = folded(source, map);
-    if (options.waypoints || result.flips > 0) {
-        if (options.waypoints) result.path = in_model(target, *options.waypoints);
-        const Continuation way(source, std::polar(1.0, matched.rotation) * chart.chart.vertices, options.outer_loop,
-                               model, result.path);
-        const FollowedMap followed = follow(source, way, kLargestStep);
-        map = followed.map;
-        result.factorizations += followed.steps;
-        result.led = true;
-    }
-    result.map = target.places(map);
-    for (const SlidingLoop& sliding : result.loops)
-        for (std::size_t i = 0; i < loops[sliding.loop].size(); ++i)
-            result.map[loops[sliding.loop][i]] = sliding.curve.point(sliding.parameters[i]);
-    return result;
+    return start_from(turned(matched, chart, target, options), source, target, options);
 }
 
 void hold_what_conformal_maps_move(std::vector<SlidingLoop>& loops, int outer, std::size_t marks) {

@@ -11,17 +11,18 @@ struct SlidingStart {
     Eigen::VectorXcd map;            ///< #V in the target's plane, boundary vertices on their curves
     std::vector<SlidingLoop> loops;  ///< in the order of the source's loops; marked vertices are held
     std::vector<int> curves;         ///< of every loop
-    double rotation = 0;
-    std::vector<Waypoint> path;  ///< that was followed, in the model
-    bool led = false;            ///< along the path; else the map is harmonic
-    int flips = 0;               ///< of the harmonic map
+    DiskMoebius move;                ///< of the source's circle domain, towards the model (loop_partners.h)
+    std::vector<Waypoint> path;      ///< that was followed, in the model
+    bool led = false;                ///< along the path; else the map is harmonic
+    int flips = 0;                   ///< of the harmonic map
     int factorizations = 0;
 };
 
-/// Loops are matched, the source's circle domain is turned, and every circle goes to its partner evenly (between marks
-/// if there are any). The harmonic map with these values is the start if it has no folds and no way is prescribed;
-/// else the holes are led along their way (continuation.h) in the unit disk of the model, and the result is carried to
-/// the target.
+/// Loops are matched, the source's circle domain is moved towards the model by a Möbius map (loop_partners.h), and
+/// every circle goes to its partner evenly (between marks if there are any). The harmonic map with these values is the
+/// start if it has no folds and no way is prescribed. Where it has folds and nothing says how loops are to be turned,
+/// they are turned first so that it is not twisted (untwisting.h). Then the holes are led along their way
+/// (continuation.h) in the unit disk of the model, and the result is carried to the target.
 /// @param chart circle domain of the source
 /// @throw Error bad_boundary, bad_option, not_solved
 SlidingStart sliding_start(const Surface& source, const CircleDomainChart& chart, const TargetModel& target,

@@ -66,6 +66,7 @@ TEST(GridOnSurface, FillsARectangleExactly) {
         EXPECT_EQ(grid.mesh.vertex_count(), 21 * 11);
         EXPECT_NEAR(grid.quality.min_angle, kPi / 2, 1e-12);
         EXPECT_NEAR(grid.quality.max_angle, kPi / 2, 1e-12);
+        EXPECT_NEAR(grid.quality.mean_skew, 0, 1e-12);
         EXPECT_NEAR(grid.quality.max_aspect, 1, 1e-12);
         EXPECT_NEAR(grid.quality.area_ratio, 1, 1e-12);
         EXPECT_EQ(std::count(grid.on_border.begin(), grid.on_border.end(), 1), 60);
@@ -131,6 +132,7 @@ TEST(GridOnSurface, PolarGridHasTrianglesAtItsCentre) {
     int triangles = 0;
     for (int f = 0; f < grid.mesh.face_count(); ++f) triangles += grid.mesh.faces[f].size() == 3;
     EXPECT_EQ(triangles, 24);
+    EXPECT_NEAR(grid.quality.mean_skew, kPi / 24, 1e-3) << "chords against the rays; triangles do not count";
     // Around another centre, the circles are cut.
     const SurfaceGrid other = grid_on_surface(source, map, PolarGrid{.centre = {0.7, 0.4}, .spacing = 0.07});
     expect_sound(other, source, map);

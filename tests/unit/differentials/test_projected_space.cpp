@@ -218,6 +218,22 @@ TEST(ProjectedSpace, TangentsOfTheTrueCurvesAreThoseOfTheLoops) {
               1e-9);
 }
 
+TEST(ProjectedSpace, ALentSolverIsUsedWhereItFits) {
+    const Domain domain(kThree, {}, 0.06);
+    const ProjectedSpace own = domain.projected();
+    std::vector<Freedom> sliding = freedoms({}, domain.surface);
+    for (const auto& loop : domain.surface.topology.boundary_loops)
+        for (const int v : loop) sliding[v] = Freedom::sliding;
+    for (const bool fits : {true, false}) {
+        std::vector<Freedom> freedom = sliding;
+        if (!fits) freedom[domain.surface.topology.boundary_loops[0][5]] = Freedom::fixed;
+        BeltramiSolver solver(domain.surface, freedom, 1);
+        const ProjectedSpace lent = projected_space(domain.surface, domain.chart, {.solver = &solver});
+        EXPECT_EQ(solver.factorization_count(), fits ? 1 : 0);
+        EXPECT_EQ(*lent.space.tabulated(), *own.space.tabulated());
+    }
+}
+
 /// A domain whose curves are no circles: the image of a ring, where φ is known.
 TEST(ProjectedSpace, OtherSmoothCurvesThanCircles) {
     double last = 0;

@@ -125,6 +125,25 @@ TEST(WriteMesh, PlyHoldsColumns) {
     EXPECT_EQ(last, 1e-7);
 }
 
+TEST(WriteMesh, ShadesAreColoursInEveryFormat) {
+    const TemporaryFolder folder;
+    const Mesh mesh = awkward_mesh();
+    const std::vector<Shade> shades{Shade::light, Shade::dark};
+    for (const char* name : {"a.obj", "a.off", "a.ply"}) {
+        write_mesh(folder / name, {.mesh = mesh, .shades = shades});
+        expect_same(read_mesh(folder / name).mesh, mesh);
+        EXPECT_THROW(write_mesh(folder / name, {.mesh = mesh, .shades = {Shade::dark}}), Error);
+    }
+    EXPECT_NE(get(folder / "a.obj").find("\nusemtl light\nf 1 2 3\nusemtl dark\nf 4 3 2 1\n"), std::string::npos);
+    EXPECT_TRUE(get(folder / "a.off").ends_with("\n3 0 1 2 240 240 240\n4 3 2 1 0 40 40 40\n"));
+    write_ply(folder / "b.ply", mesh, {}, {}, PlyEncoding::ascii, shades);
+    EXPECT_TRUE(get(folder / "b.ply").ends_with("\n3 0 1 2 240 240 240\n4 3 2 1 0 40 40 40\n"));
+    EXPECT_TRUE(get(folder / "a.ply").ends_with("\x28\x28\x28"));
+    // A column may not take the name of a colour.
+    EXPECT_THROW(write_ply(folder / "c.ply", mesh, {{"red", Eigen::Vector2d(1, 2)}}, {}, PlyEncoding::ascii, shades),
+                 Error);
+}
+
 TEST(WriteMesh, LocaleChangesNothing) {
     struct Comma : std::numpunct<char> {
         char do_decimal_point() const override { return ','; }

@@ -116,6 +116,28 @@ TEST(BeltramiSolver, AnOffsetIsMadeUpFor) {
     }
 }
 
+TEST(BeltramiSolver, ManyOffsetsAtOnceAreEachOnesSolution) {
+    for (const Mesh& mesh : {test::jittered_square(8), test::mixed_square(7)}) {
+        const Surface surface(mesh);
+        for (const Freedom on_boundary : {Freedom::fixed, Freedom::sliding}) {
+            std::vector<Freedom> freedom(mesh.vertex_count(), Freedom::free);
+            for (const int v : surface.topology.boundary_loops[0]) freedom[v] = on_boundary;
+            freedom[surface.topology.boundary_loops[0][0]] = Freedom::fixed;
+            freedom[surface.topology.boundary_loops[0][9]] = Freedom::fixed;
+            BeltramiSolver solver(surface, freedom, 1);
+            ASSERT_EQ(solver.decoupled(), on_boundary == Freedom::fixed);
+            ASSERT_EQ(solver.freedoms(), freedom);
+            solver.factorize(constant(surface, {0.3, -0.2}), complex_positions(mesh));
+            const Eigen::MatrixXcd offsets = Eigen::MatrixXcd::Random(surface.operators.sample_count(), 9);
+            const Eigen::MatrixXcd all = solver.solve_offsets(offsets);
+            const Eigen::VectorXcd zero = Eigen::VectorXcd::Zero(mesh.vertex_count());
+            for (int j = 0; j < offsets.cols(); ++j)
+                EXPECT_LT((all.col(j) - solver.solve(zero, offsets.col(j))).cwiseAbs().maxCoeff(),
+                          1e-12 * all.cwiseAbs().maxCoeff());
+        }
+    }
+}
+
 TEST(BeltramiSolver, PoissonsEquationIsSolved) {
     const Mesh mesh = disk(24);
     const Surface surface(mesh);

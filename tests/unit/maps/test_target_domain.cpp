@@ -119,10 +119,11 @@ class MarksTest : public ::testing::Test {
     int at(int loop, int position) const { return source.topology.boundary_loops[loop][position]; }
 };
 
-TEST_F(MarksTest, GoToNearestPoints) {
-    const auto marks = marks_at_points(source, domain, partners, {at(0, 3), at(1, 2), at(0, 9), at(0, 20)},
-                                       {{-1, -3}, {0.1, 0}, {5, 0}, {0, 1.9}});
-    ASSERT_EQ(marks.size(), 4u);
+TEST_F(MarksTest, GoToNearestPointsOfTheNearestCurve) {
+    const std::vector<Complex> points{{-1, -3}, {0.1, 0}, {5, 0}, {0, 1.9}};
+    const std::vector<int> vertices{at(0, 3), at(1, 2), at(0, 9), at(0, 20)};
+    std::vector<Mark> marks;
+    for (std::size_t i = 0; i < points.size(); ++i) marks.push_back(nearest_mark(domain, vertices[i], points[i]));
     EXPECT_EQ(marks[0].vertex, at(0, 3));
     EXPECT_EQ(marks[0].curve, 0);
     EXPECT_NEAR(marks[0].parameter, 1, 1e-15);
@@ -130,50 +131,28 @@ TEST_F(MarksTest, GoToNearestPoints) {
     EXPECT_NEAR(std::abs(domain.curve(1).point(marks[1].parameter) - Complex(0.5, 0)), 0, 1e-15);
     EXPECT_NEAR(marks[2].parameter, 6, 1e-15);
     EXPECT_NEAR(marks[3].parameter, 10, 1e-15);
+    EXPECT_NO_THROW(validate(marks, source, domain, partners));
     // Started anywhere on the loop, and with any two, the order is right.
-    EXPECT_NO_THROW(marks_at_points(source, domain, partners, {at(0, 3), at(0, 9)}, {{0, 2}, {-2, -2}}));
-    EXPECT_NO_THROW(
-        marks_at_points(source, domain, partners, {at(0, 3), at(0, 9), at(0, 20)}, {{0, 1.9}, {-1, -3}, {5, 0}}));
+    EXPECT_NO_THROW(validate({marks[3], marks[0]}, source, domain, partners));
+    EXPECT_NO_THROW(validate({{at(0, 3), 0, 10}, {at(0, 9), 0, 1}, {at(0, 20), 0, 6}}, source, domain, partners));
+    expect_error(Cause::bad_boundary, "not finite", [&] { nearest_mark(domain, 0, {std::nan(""), 0}); });
 }
 
 TEST_F(MarksTest, RefusesContradictions) {
-    const auto mark = [&](std::vector<int> vertices, std::vector<Complex> points) {
-        return [=, this] { marks_at_points(source, domain, partners, vertices, points); };
-    };
+    const auto mark = [&](std::vector<Mark> marks) { return [=, this] { validate(marks, source, domain, partners); }; };
     int inner = 0;
     while (source.topology.on_boundary[inner]) ++inner;
-    expect_error(Cause::bad_boundary, "not on the boundary", mark({inner}, {0}));
-    expect_error(Cause::bad_boundary, "counted from 0", mark({source.mesh.vertex_count()}, {0}));
-    expect_error(Cause::bad_boundary, "counted from 0", mark({-1}, {0}));
-    expect_error(Cause::bad_boundary, "marked twice", mark({at(0, 1), at(0, 1)}, {0, 1}));
-    expect_error(Cause::bad_boundary, "not finite", mark({at(0, 1)}, {{std::nan(""), 0}}));
-    expect_error(Cause::bad_boundary, "one place", mark({at(0, 1), at(0, 2)}, {{3, 3}, {4, 4}}));
+    expect_error(Cause::bad_boundary, "not on the boundary", mark({{inner, 0, 0.0}}));
+    expect_error(Cause::bad_boundary, "counted from 0", mark({{source.mesh.vertex_count(), 0, 0.0}}));
+    expect_error(Cause::bad_boundary, "counted from 0", mark({{-1, 0, 0.0}}));
+    expect_error(Cause::bad_boundary, "marked twice", mark({{at(0, 1), 0, 0.0}, {at(0, 1), 0, 1.0}}));
+    expect_error(Cause::bad_boundary, "partner of its loop", mark({{at(0, 1), 0, std::nan("")}}));
+    expect_error(Cause::bad_boundary, "partner of its loop", mark({{at(0, 1), 1, 0.0}}));
+    expect_error(Cause::bad_boundary, "one place", mark({{at(0, 1), 0, 8.0}, {at(0, 2), 0, 8.0}}));
     expect_error(Cause::bad_boundary, "another order",
-                 mark({at(0, 1), at(0, 5), at(0, 9)}, {{0, -2}, {-2, 0}, {2, 0}}));
-    expect_error(Cause::bad_option, "not as many", mark({at(0, 1)}, {}));
-    expect_error(Cause::bad_option, "does not exist or is taken", [&] {
-        marks_at_points(source, domain, {0, 0}, {}, {});
-    });
-    expect_error(Cause::bad_option, "2 boundary loops", [&] { marks_at_points(source, domain, {0}, {}, {}); });
-    expect_error(Cause::bad_boundary, "partner of its loop", [&] {
-        validate({{at(0, 1), 1, 0.0}}, source, domain, partners);
-    });
-}
-
-TEST_F(MarksTest, GoToVerticesOfATargetMesh) {
-    const Surface target(polygon_domain({{-2, -2}, {2, -2}, {2, 2}, {-2, 2}}, {{{-1, -1}, {1, -1}, {0, 1}}}));
-    const TargetDomain own = boundary_domain(target);
-    const auto marks = marks_at_vertices(source, target, own, partners, {at(0, 3), at(0, 9), at(1, 4)}, {1, 2, 6});
-    for (const auto& [mark, vertex] : {std::pair(marks[0], 1), std::pair(marks[1], 2), std::pair(marks[2], 6)}) {
-        const Complex z = own.curve(mark.curve).point(mark.parameter);
-        EXPECT_EQ(z, Complex(target.mesh.positions(vertex, 0), target.mesh.positions(vertex, 1)));
-    }
-    expect_error(Cause::bad_boundary, "not on its boundary loop 0",
-                 [&] { marks_at_vertices(source, target, own, partners, {at(0, 3)}, {5}); });
-    expect_error(Cause::bad_boundary, "not on its boundary loop 1",
-                 [&] { marks_at_vertices(source, target, own, partners, {at(1, 3)}, {1}); });
-    expect_error(Cause::bad_boundary, "not on its boundary",
-                 [&] { marks_at_vertices(source, target, own, partners, {at(0, 3)}, {-5}); });
+                 mark({{at(0, 1), 0, 2.0}, {at(0, 5), 0, 14.0}, {at(0, 9), 0, 6.0}}));
+    expect_error(Cause::bad_option, "does not exist or is taken", [&] { validate({}, source, domain, {0, 0}); });
+    expect_error(Cause::bad_option, "2 boundary loops", [&] { validate({}, source, domain, {0}); });
 }
 
 }  // namespace

@@ -1,0 +1,202 @@
+#include <map>
+
+#include <beltrami/applications/fitting_grid.h>
+#include <beltrami/applications/grid_on_surface.h>
+#include <beltrami/applications/reached_corners.h>
+#include <beltrami/conformal/disk_moebius.h>
+#include <beltrami/io/write_mesh.h>
+#include <beltrami/maps/prescribed_split.h>
+#include <beltrami/mesh/error.h>
+#include <beltrami/teichmuller/target_model.h>
+
+#include "command.h"
+#include "map_methods.h"
+#include "onto_options.h"
+#include "output.h"
+#include "page.h"
+#include "words.h"
+
+namespace beltrami::cli {
+
+namespace {
+
+const std::map<std::string, GridLines> kLines{{"auto", GridLines::automatic},
+                                              {"rectangular", GridLines::rectangular},
+                                              {"polar", GridLines::polar},
+                                              {"log-polar", GridLines::log_polar}};
+
+class Grid final : public Command {
+  public:
+    explicit Grid(CLI::App& parent) {
+        CLI::App* app = parent.add_subcommand(
+            "grid", "a structured grid of quads on a surface, carried there from a simple domain of the plane");
+        app->add_option("SURFACE", source_,
+                        "OBJ, PLY, OFF or STL; one component of genus 0 with a boundary: a disk, with holes or without")
+            ->required();
+        app->add_option("-o,--output", output_,
+                        "the grid as OBJ, PLY (with the column and row of every face's cell) or OFF; its places in the "
+                        "domain are vt or u, v")
+            ->required()
+            ->type_name("OUT");
+        app->add_option("--map", map_,
+                        "extremal: the map of least dilatation between SURFACE and TARGET; conformal: that to a disk "
+                        "with round holes of SURFACE's own, without a TARGET")
+            ->check(CLI::IsMember({"extremal", "conformal"}))
+            ->capture_default_str();
+        target_.add_to(*app, OntoTarget::Kinds::domains);
+        app->add_option("--outer", outer_, "the boundary loop that goes to the outer curve")
+            ->check(CLI::NonNegativeNumber)
+            ->capture_default_str();
+        app->add_option("--cells", cells_,
+                        "rectangular: cells along the longer side of the domain; polar, log-polar: around")
+            ->check(CLI::Range(1, 1000000))
+            ->capture_default_str();
+        std::vector<std::string> lines;
+        for (const auto& [name, kind] : kLines) lines.push_back(name);
+        app->add_option("--lines", lines_,
+                        "auto: log-polar on a ring between two circles of one centre, else rectangular, along the "
+                        "sides of an outer rectangle")
+            ->check(CLI::IsMember(lines))
+            ->capture_default_str();
+        app->add_option("--pattern", pattern_, "checker: cells are coloured like a chess-board's")
+            ->check(CLI::IsMember({"grid", "checker"}))
+            ->capture_default_str();
+        app->add_option("--border", border_,
+                        "stepped: cells that the boundary cuts are left out, so that all faces are quads (but those "
+                        "at the centre of polar lines); trimmed: their part inside becomes triangles and quads")
+            ->check(CLI::IsMember({"stepped", "trimmed"}))
+            ->capture_default_str();
+        app->add_option("--places", places_,
+                        "where on SURFACE every vertex of the grid lies: a line `vertex face a b c wa wb wc` each, "
+                        "the face's vertices a b c with their barycentric weights")
+            ->type_name("FILE");
+        common_.add_to(*app);
+        app->footer(kExitCodes);
+    }
+
+    int run() override {
+        check();
+        Record record;
+        record.command = "grid";
+        Mesh mesh = load(source_, record.warnings);
+        const double start = seconds();
+        const Surface source(std::move(mesh));
+        add_findings(source.findings, record.warnings);
+        record.source = source_record(source);
+        TargetDomain domain = TargetDomain{TargetCurve::circle(0, 1), {}};
+        MethodResult result = map_ == "extremal" ? run_extremal_onto(source, start, domain, record)
+                                                 : run_conformal(source, start, domain, record);
+        const Surface& mapped = result.split ? *result.split : source;
+
+        const PlaneGrid lines = fitting_grid(domain, cells_, kLines.at(lines_));
+        GridOptions how;
+        how.border = border_ == "trimmed" ? GridOptions::Border::trimmed : GridOptions::Border::stepped;
+        const SurfaceGrid grid = grid_on_surface(mapped, result.map, lines, how);
+        record.grid = grid_record(grid, source.mesh);
+        record.grid->carried_by = map_;
+        record.grid->lines = lines_of(lines);
+        record.grid->cells = cells_;
+        record.grid->trimmed = border_ == "trimmed";
+        record.grid->checker = pattern_ == "checker";
+        add_warnings(grid, record);
+
+        write_grid(grid);
+        if (!places_.empty()) write_places(places_, grid.parents);
+        write_page(common_.report, mapped.mesh, std::move(result.pages), result.history, record, source_);
+        finish(record, common_, map_, {output_, places_, common_.json, common_.report});
+        return 0;
+    }
+
+  private:
+    void check() const {
+        require_mesh_format(output_);
+        std::vector<NamedFile> inputs = target_.inputs();
+        inputs.push_back({"SURFACE", source_});
+        common_.check_files(inputs, {{"-o", output_}, {"--places", places_}});
+        if (map_ == "extremal" && !target_.given())
+            throw Error(Cause::bad_option, "the extremal map needs a parameter domain",
+                        "give one with --onto, or --map conformal");
+        if (map_ == "extremal") return;
+        if (target_.given())
+            throw Error(Cause::bad_option,
+                        "the conformal map goes to a domain that SURFACE alone determines, not to that of --onto",
+                        "leave out --onto or --map conformal");
+        if (const std::string stray = target_.stray(); !stray.empty())
+            throw Error(Cause::bad_option, stray + " belongs to --onto");
+    }
+
+    MethodResult run_extremal_onto(const Surface& source, double start, TargetDomain& domain, Record& record) {
+        target_.load(source, record.warnings);
+        domain = *target_.domain();
+        OntoOptions options;
+        options.outer_loop = outer_;
+        target_.apply(options);
+        const std::vector<Mark> marks = options.marks;
+        MethodResult done = run_onto(source, target_, std::move(options), start, !common_.quiet, record);
+        reach_corners(done.split ? *done.split : source, domain, record.onto->loops, marks, done.map);
+        return done;
+    }
+
+    MethodResult run_conformal(const Surface& source, double start, TargetDomain& domain, Record& record) const {
+        require_genus_zero(source);
+        MethodResult done;
+        SplitProblem split = split_bridges(source);
+        if (split.split_edges > 0) {
+            record.split = split_record(split, source.mesh.vertex_count());
+            done.split = surface_of(std::move(split.mesh), std::move(split.metric));
+        }
+        const Surface& mapped = done.split ? *done.split : source;
+        CircleDomainChart chart = circle_domain_chart(mapped, outer_);
+        if (chart.holes.size() == 1) {  // a ring between circles of one centre
+            const DiskMoebius move = centring(chart.holes[0]);
+            chart.chart.vertices = move(chart.chart.vertices);
+            chart.holes[0] = move(chart.holes[0]);
+            chart.holes[0].centre = 0;
+        }
+        domain = circle_target(chart);
+        done.map = std::move(chart.chart.vertices);
+        done.distortion = distortion(mapped.operators, done.map);
+        record.map = map_record(done.distortion);
+        record.solve.emplace();
+        record.solve->iterations = chart.steps;
+        record.solve->termination = to_string(chart.converged ? Termination::converged : Termination::iteration_limit);
+        record.solve->factorizations = chart.factorizations;
+        record.solve->seconds_total = seconds() - start;
+        record.warnings.insert(record.warnings.end(), chart.chart.warnings.begin(), chart.chart.warnings.end());
+        done.pages.push_back({"conformal", positions_of(done.map), done.distortion.face_abs_mu});
+        return done;
+    }
+
+    static void add_warnings(const SurfaceGrid& grid, Record& record) {
+        if (const auto& folded = grid.quality.folded; !folded.empty())
+            record.warnings.push_back(counted(folded.size(), "face of the grid is", "faces of the grid are") +
+                                      " turned over or not convex on the surface: at a corner of the domain that its "
+                                      "boundary has not, or where it turns back; the first is face " +
+                                      std::to_string(folded[0]));
+    }
+
+    void write_grid(const SurfaceGrid& grid) const {
+        const int faces = grid.mesh.face_count();
+        std::vector<Column> columns{{"column", Eigen::VectorXd(faces)}, {"row", Eigen::VectorXd(faces)}};
+        std::vector<Shade> shades;
+        for (int f = 0; f < faces; ++f) {
+            const auto [column, row] = grid.cells[f];
+            columns[0].values[f] = column, columns[1].values[f] = row;
+            if (pattern_ == "checker") shades.push_back((column + row) % 2 == 0 ? Shade::light : Shade::dark);
+        }
+        write_mesh(output_, {grid.mesh, positions_of(grid.parameter), std::move(columns), std::move(shades)});
+    }
+
+    std::string source_, output_, map_ = "extremal", lines_ = "auto", pattern_ = "grid", border_ = "stepped", places_;
+    int cells_ = 40, outer_ = 0;
+    OntoTarget target_;
+    CommonOptions common_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_grid(CLI::App& parent) {
+    return std::make_unique<Grid>(parent);
+}
+
+}  // namespace beltrami::cli

@@ -1,0 +1,26 @@
+#include <beltrami/flow/slid_map.h>
+
+#include <beltrami/mesh/error.h>
+#include <beltrami/teichmuller/sliding_loops.h>
+
+namespace beltrami {
+
+void require_start_of(const Surface& source, const SlidingStart& start) {
+    if (start.map.size() != source.mesh.vertex_count() || start.curves.size() != source.topology.boundary_loops.size())
+        throw Error(Cause::bad_option, "the start belongs to another source", "make it with flow_start");
+}
+
+void record_map(const Surface& source, const SlidingStart& start, const SlidingBoundary& boundary, SlidMap& result) {
+    result.factorizations += start.factorizations;
+    result.distortion = distortion(source.operators, result.map);
+    result.loops = loops_onto(source, boundary, start.curves, result.map);
+}
+
+void warn_of_folds_and_limit(const std::string& stopped, SlidMap& result) {
+    if (!result.distortion.flipped.empty())
+        result.warnings.push_back("flipped faces in the result: " + std::to_string(result.distortion.flipped.size()) +
+                                  "; it is not one-to-one there");
+    if (result.termination == Termination::iteration_limit) result.warnings.push_back("stopped after " + stopped);
+}
+
+}  // namespace beltrami

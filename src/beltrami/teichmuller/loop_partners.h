@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include <beltrami/teichmuller/extremal_onto.h>
+#include <beltrami/teichmuller/target_model.h>
+
+namespace beltrami {
+
+/// Which curve each boundary loop goes to, and the source's circle domain brought near the target's model.
+struct LoopPartners {
+    std::vector<int> curves;         ///< of every loop
+    DiskMoebius move;                ///< that fits holes and marks best; a rotation if waypoints are given
+    Eigen::VectorXcd vertices;       ///< #V places of the chart, moved
+    std::vector<RoundHole> circles;  ///< of every loop, moved
+};
+
+/// Pairs the loops, as options.loops have them or matched (circle_matching.h), and moves the source's circle domain by
+/// the best Möbius map: conformal copies of a source get the same start. Where waypoints say how the holes go on it is
+/// only turned, as it is where the faces are too large for the Möbius map to keep their sides.
+/// @throw Error bad_boundary, bad_option
+LoopPartners loop_partners(const Surface& source, const CircleDomainChart& chart, const TargetModel& target,
+                           const OntoOptions& options);
+
+/// The same partners with the source's circle domain only turned, where no places are marked.
+LoopPartners turned(const LoopPartners& partners, const CircleDomainChart& chart, const TargetModel& target,
+                    const OntoOptions& options);
+
+}  // namespace beltrami
