@@ -162,9 +162,9 @@ Figure figure_12(Output& output) {
         if (!sliding) figure.tables.push_back(pieces_table(problem, boundary));
     }
     figure.remarks.push_back(
-        "Our part is gentler than the fandisk: no method folds. With pinned features φ may be another one on every "
-        "piece, which the space of differentials (poles at the pins) can only approach: K_lower and K are below the "
-        "largest K of the pieces.");
+        "Our part is gentler than the fandisk: no method folds. Pinned features cut the part into pieces, each of "
+        "which is mapped by its own extremal map; k is that of the worst. Features that slide leave φ a real jump "
+        "across them.");
     return figure;
 }
 

@@ -116,6 +116,27 @@ SolvedOnto OntoExample::run(Output& output, Figure& figure, Table& table, const 
     return solved;
 }
 
+Energies energies(const std::string& label, const Surface& source, const TargetDomain& target, OntoOptions options) {
+    Energies result{{label, {}, {}}, {label, {}, {}}};
+    const auto add = [&](int iterations, const Distortion& d) {
+        result.largest.x.push_back(iterations);
+        result.largest.y.push_back(std::min(1.0, d.max));
+        result.p99.x.push_back(iterations);
+        result.p99.y.push_back(std::min(1.0, d.p99));
+    };
+    options.remove_folds = false;
+    options.coarse_start = false;
+    for (int n = 1; n <= 90 && result.settled == 0; n += n < 20 ? 1 : 5) {
+        options.max_iterations = n;
+        const SolvedOnto solved = solve_onto(source, target, options);
+        if (!solved) continue;
+        if (result.p99.x.empty()) add(0, distortion(source.operators, solved.all->start));
+        add(solved.all->iterations, solved.all->distortion);
+        if (solved.all->termination == Termination::converged) result.settled = solved.all->iterations;
+    }
+    return result;
+}
+
 std::optional<std::filesystem::path> scan_path(const std::string& file) {
     const char* folder = std::getenv("BELTRAMI_MESHES");
     const std::filesystem::path path = std::filesystem::path(folder ? folder : "") / file;

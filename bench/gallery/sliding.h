@@ -57,6 +57,14 @@ struct OntoExample {
                    const OntoOptions& options = {}) const;
 };
 
+/// Largest |μ| and its 99th percentile, 1 where faces are turned over, of the maps after some iterations.
+struct Energies {
+    Curve largest, p99;
+    int settled = 0;  ///< iterations after which all had settled; 0: never
+};
+/// From the start that options give, on the source's own mesh; what the iterations so far have reached, one by one.
+Energies energies(const std::string& label, const Surface& source, const TargetDomain& target, OntoOptions options);
+
 /// The path of a mesh in the folder BELTRAMI_MESHES; nothing, with a message, if it is not there.
 std::optional<std::filesystem::path> scan_path(const std::string& file);
 

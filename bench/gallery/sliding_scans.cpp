@@ -120,6 +120,30 @@ void scan_onto_disk(Output& output, Figure& figure, const Surface& face) {
     }
 }
 
+/// The course of the iteration from starts of all kinds (their Fig. 21).
+void course(Figure& figure, const Surface& face) {
+    OntoOptions plain, turned, far;
+    turned.start_turns = {0, 2, -2, 2};
+    far.loops = {{0, 0}, {1, 1}, {2, 2}, {3, 3}};
+    const TargetDomain target = circles_target(kRoundHoles);
+    const std::vector<Energies> all{energies("matched", face, target, plain),
+                                    energies("holes turned by 2, −2, 2 rad", face, target, turned),
+                                    energies("another pairing", face, target, far)};
+    Picture picture{"sliding_12_course",
+                    "alex_3 onto the disk with three holes, from starts on its own mesh: the largest |μ| and its 99th "
+                    "percentile after every iteration (1: faces are turned over).",
+                    {}};
+    std::vector<Curve> largest, p99;
+    for (const Energies& one : all) largest.push_back(one.largest), p99.push_back(one.p99);
+    picture.panels.push_back(curves_panel(largest, "largest |μ|", "iterations", "max |μ|", false));
+    picture.panels.push_back(curves_panel(p99, "99th percentile of |μ|", "iterations", "p99", false));
+    figure.pictures.push_back(std::move(picture));
+    std::string counts;
+    for (const Energies& one : all)
+        counts += (counts.empty() ? "" : ", ") + one.largest.label + " " + std::to_string(one.settled);
+    figure.remarks.push_back("Iterations until all has settled, φ to 1e-6: " + counts + ".");
+}
+
 void amoeba_onto_disk(Output& output, Figure& figure) {
     const auto path = scan_path("amoeba1.obj");
     if (!path) return;
@@ -169,6 +193,7 @@ Figure sliding_12(Output& output) {
                   "iterations from an arbitrary start, fewer than 5 from a good one."};
     const Surface face(read_mesh(*path).mesh);
     scan_onto_disk(output, figure, face);
+    course(figure, face);
     Table table{"Between two surfaces", start_head("map"), {}};
     const Surface other(deformed(face.mesh));
     const Distortion vertex_to_vertex = distortion_to(face.mesh, other.mesh);

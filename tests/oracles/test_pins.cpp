@@ -78,7 +78,8 @@ TEST(Pins, LinesOfTheExactMapChangeNothing) {
         EXPECT_EQ(with.result.termination, Termination::converged);
         // By symmetry the axis stays on itself without lines as well.
         EXPECT_NEAR(with.result.k, without.result.k, 1e-6);
-        EXPECT_LT((with.result.map - without.result.map).cwiseAbs().maxCoeff(), 1e-5);
+        // φ may jump across it, and does as far as the mesh's noise asks for it.
+        EXPECT_LT((with.result.map - without.result.map).cwiseAbs().maxCoeff(), 0.1 * without.vertex_error);
         for (const auto& line : problem.boundary.lines) EXPECT_LT(std::abs(with.result.map[line.vertex].imag()), 1e-12);
     }
 }
@@ -110,10 +111,13 @@ TEST(Pins, LinesInAnyDirection) {
 }
 
 TEST(Pins, AWholeCurve) {
-    const Solved without = solve(bench::exact_composition(0.06)), with = solve(on_the_axis(0.06, false));
-    expect_sound(with.result);
-    EXPECT_NEAR(with.result.k, without.result.k, 2e-4);
-    EXPECT_LE(with.vertex_error, 1.05 * without.vertex_error);
+    for (const double edge_length : {0.06, 0.03}) {
+        const Solved without = solve(bench::exact_composition(edge_length)),
+                     with = solve(on_the_axis(edge_length, false));
+        expect_sound(with.result);
+        EXPECT_NEAR(with.result.k, without.result.k, edge_length > 0.05 ? 2e-4 : 2e-5);
+        EXPECT_LE(with.vertex_error, 1.05 * without.vertex_error);
+    }
 }
 
 }  // namespace

@@ -29,6 +29,27 @@ Complex node_direction(int q) {
 
 }  // namespace
 
+void take_means(const SamplePoints& means, const Eigen::MatrixXcd& at_points, Eigen::MatrixXcd& values) {
+    for (const int s : means.samples) values.row(s).setZero();
+    for (std::size_t i = 0; i < means.samples.size(); ++i) {
+        const auto point = static_cast<Eigen::Index>(i);
+        values.row(means.samples[i]) += means.weights[point] * at_points.row(point);
+    }
+}
+
+void SampledSpace::set_means(SamplePoints means) {
+    if (!large_) means_ = std::move(means);
+}
+
+Eigen::VectorXcd SampledSpace::combination_at_means(const Eigen::VectorXcd& coefficients) const {
+    if (means_.samples.empty()) return {};
+    return at_means_.times(space_->of_generators(coefficients));
+}
+
+Eigen::MatrixXcd SampledSpace::pair_at_means(const Eigen::MatrixXcd& weights) const {
+    return space_->from_generators(at_means_.transposed_times(weights));
+}
+
 SampledSpace::SampledSpace(const Chart& chart, const Singularities& singularities, double phase) : chart_(chart) {
     const auto samples = chart.positions.size();
     if (samples <= kMostDenseSamples) return;
@@ -57,6 +78,11 @@ void SampledSpace::set(const DifferentialSpace& space) {
             space.tabulated() ? *space.tabulated() : space.generators({chart_.positions, chart_.derivatives});
         if (values.rows() != static_cast<Eigen::Index>(chart_.excluded.size()))
             throw std::logic_error("SampledSpace: a tabulated space of other samples");
+        if (!means_.samples.empty()) {
+            const Eigen::MatrixXcd at_points = space.generators(means_.points);
+            take_means(means_, at_points, values);
+            at_means_ = SplitMatrix(at_points);
+        }
         for (Eigen::Index s = 0; s < values.rows(); ++s)
             if (chart_.excluded[s]) values.row(s).setZero();
         values_ = SplitMatrix(values);

@@ -8,6 +8,18 @@
 
 namespace beltrami {
 
+/// Points that stand for samples where one point a sample is not enough.
+struct SamplePoints {
+    std::vector<int> samples;  ///< sample of every point, ascending
+    ChartPoints points;
+    Eigen::VectorXd weights;  ///< parts of the sample: 1 in all
+};
+
+/// Rows of the samples that have such points replaced by means over these.
+/// @param at_points #points values of functions at the points
+/// @param values    #S rows of the same functions
+void take_means(const SamplePoints& means, const Eigen::MatrixXcd& at_points, Eigen::MatrixXcd& values);
+
 /// A space of differentials on the samples of a mesh: values of a combination at every sample, and pairings of every
 /// basis function with weights at the samples.
 ///
@@ -21,6 +33,13 @@ class SampledSpace {
     /// @param chart kept by reference
     /// @param phase rotation of the grid, tied to the data so that turning the source changes nothing
     SampledSpace(const Chart& chart, const Singularities& singularities, double phase);
+
+    /// Values at some samples are means over points of theirs from now on, as far as values are kept for every sample.
+    void set_means(SamplePoints means);
+    /// The points, none where values are not kept; a combination at them, and pairings with weights at them.
+    const SamplePoints& means() const { return means_; }
+    Eigen::VectorXcd combination_at_means(const Eigen::VectorXcd& coefficients) const;
+    Eigen::MatrixXcd pair_at_means(const Eigen::MatrixXcd& weights) const;
 
     /// Makes another space the current one; kept by reference until the next call.
     void set(const DifferentialSpace& space);
@@ -40,11 +59,13 @@ class SampledSpace {
     ChartPoints chunk(int first, int last) const;
 
     const Chart& chart_;
+    SamplePoints means_;
     const DifferentialSpace* space_ = nullptr;
     std::optional<Mode> large_;  ///< on a large mesh, of every space that can be evaluated anywhere
     Mode mode_ = Mode::dense;    ///< of the current space
     ChartGrid grid_{{}, {0}, {}, {}};
     Eigen::VectorXcd centres_;  ///< #cells
+    SplitMatrix at_means_;      ///< of the generators: #points of the means × g
     SplitMatrix values_;        ///< of the generators: #S × g; or 4 #cells × g in the canonical domain
 };
 

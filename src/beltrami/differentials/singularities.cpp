@@ -10,11 +10,27 @@ CellSize::CellSize(double largest, const Singularities& singularities, double sl
     for (const auto& hole : singularities.holes) centres_.push_back({hole.centre, hole_slope * hole_slope});
     for (const auto& corner : singularities.corners) centres_.push_back({corner.vertex, slope * slope});
     for (const Complex pin : singularities.pins) centres_.push_back({pin, slope * slope});
+    for (const auto& held : singularities.held) centres_.push_back({held.at, slope * slope});
+    squared_slope_ = slope * slope;
+    for (const auto& curve : singularities.curves)
+        for (int i = curve.first; i < curve.last; ++i) edges_.push_back({curve.points[i], curve.points[i + 1]});
 }
+
+namespace {
+
+double squared_distance(Complex z, const std::array<Complex, 2>& edge) {
+    const Complex along = edge[1] - edge[0], from = z - edge[0];
+    const double length = std::norm(along);
+    const double t = length > 0 ? std::clamp(std::real(from * std::conj(along)) / length, 0.0, 1.0) : 0.0;
+    return std::norm(from - t * along);
+}
+
+}  // namespace
 
 int CellSize::level(Complex z) const {
     double square = largest_ * largest_;
     for (const Centre& centre : centres_) square = std::min(square, centre.squared_slope * std::norm(z - centre.at));
+    for (const auto& edge : edges_) square = std::min(square, squared_slope_ * squared_distance(z, edge));
     if (square >= largest_ * largest_) return 0;
     if (!(square > 0)) return deepest_;
     return std::min(deepest_, static_cast<int>(std::ceil(0.5 * std::log2(largest_ * largest_ / square))));

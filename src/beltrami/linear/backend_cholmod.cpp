@@ -50,15 +50,16 @@ class BlasLock {
 
 }  // namespace
 
-Eigen::MatrixXd gram_lower(const Eigen::MatrixXd& A) {
+Eigen::MatrixXd gram_lower(const Eigen::Ref<const Eigen::MatrixXd>& A) {
     if (detail::has_vector_gram()) return detail::vector_gram(A);
-    const int n = static_cast<int>(A.cols()), k = static_cast<int>(A.rows());
+    const int n = static_cast<int>(A.cols()), k = static_cast<int>(A.rows()),
+              stride = static_cast<int>(A.outerStride());
     Eigen::MatrixXd result = Eigen::MatrixXd::Zero(n, n);
     if (n == 0 || k == 0) return result;
     detail::use_one_blas_thread();
     const BlasLock lock;
     const double one = 1, zero = 0;
-    dsyrk_("L", "T", &n, &k, &one, A.data(), &k, &zero, result.data(), &n);
+    dsyrk_("L", "T", &n, &k, &one, A.data(), &stride, &zero, result.data(), &n);
     return result;
 }
 

@@ -6,7 +6,7 @@
 
 namespace beltrami {
 
-Eigen::MatrixXd gram_lower(const Eigen::MatrixXd& A) {
+Eigen::MatrixXd gram_lower(const Eigen::Ref<const Eigen::MatrixXd>& A) {
     Eigen::MatrixXd result = Eigen::MatrixXd::Zero(A.cols(), A.cols());
     result.selfadjointView<Eigen::Lower>().rankUpdate(A.transpose());
     return result;

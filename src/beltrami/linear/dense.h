@@ -5,7 +5,7 @@
 namespace beltrami {
 
 /// AᵀA in the lower triangle, 0 above: with the backend's BLAS where there is one, else Eigen.
-Eigen::MatrixXd gram_lower(const Eigen::MatrixXd& A);
+Eigen::MatrixXd gram_lower(const Eigen::Ref<const Eigen::MatrixXd>& A);
 
 /// A B, likewise.
 Eigen::MatrixXcd complex_product(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& B);

@@ -61,14 +61,14 @@ bool has_vector_gram() {
 #endif
 }
 
-Eigen::MatrixXd vector_gram(const Eigen::MatrixXd& A) {
+Eigen::MatrixXd vector_gram(const Eigen::Ref<const Eigen::MatrixXd>& A) {
     const int n = static_cast<int>(A.cols()), rows = static_cast<int>(A.rows());
     Eigen::MatrixXd result = Eigen::MatrixXd::Zero(n, n);
     if (n == 0 || rows == 0) return result;
     // Columns past the last one are taken to be the last one; their products go nowhere.
     const auto tile = [&](int row, int column) {
         Columns columns;
-        for (int i = 0; i < kTile; ++i) columns[i] = &A(row, std::min(column + i, n - 1));
+        for (int i = 0; i < kTile; ++i) columns[i] = &A.coeffRef(row, std::min(column + i, n - 1));
         return columns;
     };
     const auto fill = [&](int first, int last) {

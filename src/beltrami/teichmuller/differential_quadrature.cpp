@@ -35,6 +35,9 @@ struct Piece {
     double area;  ///< in those coordinates
 };
 
+/// Pieces of a sample's mean are smaller than this part of their distance, or so often divided.
+constexpr double kMeanSlope = 0.7;
+constexpr int kMeanDepth = 3;
 constexpr int kPiecesPerChunk = 512;
 /// So many at a time, beyond the faces, or φ is no function that a mesh can resolve.
 constexpr std::size_t kMostPieces = 1 << 21;
@@ -204,6 +207,67 @@ double visit_quadrature(const Surface& source, const Chart& chart, const Differe
         pieces.swap(divided);
     }
     return total > 0 ? unresolved / total : 0.0;
+}
+
+SamplePoints points_near(const Singularities& singularities, const Surface& source, const Chart& chart) {
+    SamplePoints result;
+    if (singularities.curves.empty() && singularities.held.empty()) return result;
+    std::vector<Complex> centres = singularities.pins;
+    for (const auto& held : singularities.held) centres.push_back(held.at);
+    for (const auto& corner : singularities.corners) centres.push_back(corner.vertex);
+    for (const auto& curve : singularities.curves)
+        centres.insert(centres.end(), curve.points.begin() + curve.first, curve.points.begin() + curve.last + 1);
+    const Places places(source, chart);
+    const std::vector<Piece> faces = whole_faces(source.operators, chart);
+    std::vector<std::vector<Piece>> parts(faces.size());
+    parallel_for(0, static_cast<int>(faces.size()), [&](int first, int last) {
+        std::vector<Piece> pending, divided;
+        for (int i = first; i < last; ++i) {
+            pending.assign(1, faces[i]);
+            for (int depth = 0; !pending.empty(); ++depth) {
+                divided.clear();
+                for (const Piece& piece : pending) {
+                    std::array<Complex, 3> at;
+                    for (int j = 0; j < 3; ++j) at[j] = places(piece.sample, piece.corners[j]).position;
+                    const Complex middle_point = (at[0] + at[1] + at[2]) / 3.0;
+                    double size = 0, distance = std::numeric_limits<double>::infinity();
+                    for (const Complex corner : at) size = std::max(size, std::norm(corner - middle_point));
+                    for (const Complex centre : centres)
+                        distance = std::min(distance, std::norm(centre - middle_point));
+                    if (depth < kMeanDepth && size > kMeanSlope * kMeanSlope * distance)
+                        divide(piece, divided);
+                    else
+                        parts[i].push_back(piece);
+                }
+                pending.swap(divided);
+            }
+        }
+    });
+    std::vector<Complex> positions, derivatives;
+    std::vector<double> weights;
+    std::vector<double> whole(source.operators.sample_count(), 0.0);
+    for (const Piece& face : faces) whole[face.sample] += face.area;
+    // A quad's sample has two pieces; it is left alone where neither is divided.
+    std::vector<char> is_divided(source.operators.sample_count(), 0);
+    for (const auto& part : parts)
+        if (part.size() > 1) is_divided[part[0].sample] = 1;
+    for (const auto& part : parts)
+        for (const Piece& piece : part) {
+            if (!is_divided[piece.sample]) continue;
+            Place centre{0, 0};
+            for (const Place& corner : piece.corners)
+                for (int i = 0; i < 2; ++i) centre[i] += corner[i] / 3;
+            const Places::At here = places(piece.sample, centre);
+            result.samples.push_back(piece.sample);
+            positions.push_back(here.position);
+            derivatives.push_back(here.derivative);
+            weights.push_back(piece.area / whole[piece.sample]);
+        }
+    const auto count = static_cast<Eigen::Index>(positions.size());
+    result.points.positions = Eigen::Map<const Eigen::VectorXcd>(positions.data(), count);
+    result.points.derivatives = Eigen::Map<const Eigen::VectorXcd>(derivatives.data(), count);
+    result.weights = Eigen::Map<const Eigen::VectorXd>(weights.data(), count);
+    return result;
 }
 
 ChartPoints chart_points(const Surface& source, const Chart& chart, const std::vector<FacePoint>& points) {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include <beltrami/differentials/differential_space.h>
+#include <beltrami/differentials/sampled_space.h>
 
 namespace beltrami {
 
@@ -39,6 +39,11 @@ struct QuadratureOptions {
 double visit_quadrature(const Surface& source, const Chart& chart, const DifferentialSpace& space,
                         const Eigen::VectorXcd& coefficients, const std::function<void(const FacePoint&)>& visit,
                         const QuadratureOptions& options = {});
+
+/// Points over which φ is averaged on the samples next to curves, pinned points and corners, where one point a sample
+/// would let φ see the noise of μ: triangles are divided into four until they are small against their distance from the
+/// next such place. None where there is no curve.
+SamplePoints points_near(const Singularities& singularities, const Surface& source, const Chart& chart);
 
 /// Where φ is wanted: the points' positions in the canonical domain and the chart's derivative, as above.
 ChartPoints chart_points(const Surface& source, const Chart& chart, const std::vector<FacePoint>& points);

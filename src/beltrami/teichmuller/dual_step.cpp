@@ -135,8 +135,9 @@ class OwnNorm final : public DualNorm {
 /// ρ² = δ² + r² with r the length by which φ is expected to move at the point. The Hessian of |φ| itself (r = 0) knows
 /// nothing about the far side of a zero, and steps overshoot wherever they are as long as φ is large; that of the
 /// rounded norm does, and is as good where they are short.
+/// @param storage of the rows: large, and kept from one call to the next
 Eigen::MatrixXd dual_hessian(const DualProblem& problem, const RealView& view, const Eigen::VectorXcd& phi,
-                             double delta, const Eigen::VectorXd& reach) {
+                             double delta, const Eigen::VectorXd& reach, Eigen::VectorXd& storage) {
     const Eigen::Index m = problem.basis.cols(), points = problem.basis.rows();
     const Eigen::VectorXd rounding = reach.array().square() + delta * delta;
     Eigen::VectorXd sizes = (phi.array().abs2() + rounding.array()).sqrt();
@@ -149,7 +150,9 @@ Eigen::MatrixXd dual_hessian(const DualProblem& problem, const RealView& view, c
         e[i] = (size > 0 ? std::conj(phi[i]) / size : 1.0) * std::sqrt(problem.weights[i] / sizes[i]);
         if (delta * delta > kNearZero * square || reach[i] * reach[i] > kNearReach * square) second[i] = count++;
     }
-    Eigen::MatrixXd rows(count, view.complex ? 2 * m : m);
+    const Eigen::Index height = count, width = view.complex ? 2 * m : m;
+    if (storage.size() < height * width) storage.resize(2 * points * width);
+    Eigen::Map<Eigen::MatrixXd> rows(storage.data(), height, width);
     parallel_for(
         0, static_cast<int>(m),
         [&](int first, int last) {
@@ -248,7 +251,7 @@ class TiltedNorm {
   private:
     /// @return false if the Hessian is not definite
     bool set_hessian(const Eigen::VectorXcd& phi, const Eigen::VectorXd& reach) {
-        Eigen::MatrixXd hessian = dual_hessian(problem_, view_, phi, delta_, reach);
+        Eigen::MatrixXd hessian = dual_hessian(problem_, view_, phi, delta_, reach, storage_);
         // x itself is a null direction (the norm is homogeneous of degree one). On the hyperplane a multiple of p pᵀ
         // changes nothing and makes the matrix definite; the tiny shift is for functions that no quadrature point sees.
         const double mean_diagonal = hessian.trace() / static_cast<double>(p_.size());
@@ -271,6 +274,7 @@ class TiltedNorm {
     double delta_;
     Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> cholesky_;
     Eigen::VectorXd by_constraint_;
+    Eigen::VectorXd storage_;    ///< of dual_hessian()
     bool same_hessian_ = false;  ///< the next step takes the one at hand
 };
 

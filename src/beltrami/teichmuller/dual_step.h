@@ -50,7 +50,7 @@ struct DualOptions {
     int max_steps = 50;  ///< of Newton's method
     double step = 0;     ///< stop where another step is expected to be shorter than this part of c
     /// How far φ is expected to move at the points of the problem, per mean |φ|, as DualSolution::moved; may be empty.
-    Eigen::VectorXd reach;
+    Eigen::VectorXd reach{};
     /// Where N is minimised; null: on the points of the problem. The steps are Newton's as far as the problem's points
     /// give the Hessian.
     const DualNorm* norm = nullptr;

@@ -5,6 +5,13 @@
 
 namespace beltrami {
 
+namespace {
+
+/// By so much a corner's bound must exceed K.
+constexpr double kCornerMargin = 0.01;
+
+}  // namespace
+
 void ExtremalOptions::validate() const {
     const auto demand = [](bool holds, const char* sentence) {
         if (!holds) throw Error(Cause::bad_option, sentence);
@@ -39,6 +46,17 @@ const char* to_string(Termination termination) {
             return "not_teichmuller";
     }
     return "unknown";
+}
+
+bool corner_decides(const BoundaryCorner& corner, double K) {
+    return corner.safe_bound > (1 + kCornerMargin) * K;
+}
+
+std::string corner_warning(const BoundaryCorner& corner) {
+    return "at vertex " + std::to_string(corner.vertex) + " the boundary values alone force K ≥ " +
+           std::to_string(corner.safe_bound) +
+           ": the extremal map is not of Teichmüller type; gentler speed there (--speed conformal) or other boundary "
+           "values would lower K";
 }
 
 ExtremalMap extremal_map(const Mesh& source, const BoundaryCondition& boundary, const ExtremalOptions& options) {

@@ -65,6 +65,17 @@ enum class Termination {
 };
 const char* to_string(Termination);
 
+/// Whether a corner forces a K that is clearly larger, and the sentence that says so.
+bool corner_decides(const BoundaryCorner& corner, double K);
+std::string corner_warning(const BoundaryCorner& corner);
+
+/// A part of the surface that pinned curves cut off: a problem of its own.
+struct ExtremalPiece {
+    std::vector<int> faces;  ///< ascending
+    double k = 0, K = 1, K_lower = 1;
+    Termination termination = Termination::converged;
+};
+
 /// The map of least dilatation among all with the same boundary values (of the same homotopy class), and how good it
 /// is.
 ///
@@ -91,6 +102,9 @@ struct ExtremalMap {
     int factorizations = 0;      ///< of #V×#V systems and larger, chart included
     bool evened = false;         ///< |μ| was evened out after the iteration
     bool folds_removed = false;  ///< the iteration left flipped faces, which a fold-free solve with its φ and k removed
+    /// Where pinned curves cut the surface: its pieces, by their first faces. The map is the extremal one of each, φ is
+    /// one of each, and K, k and the bounds are the largest of theirs; history is that of the piece with the largest K.
+    std::vector<ExtremalPiece> pieces;
     std::vector<Iteration> history;
     std::vector<std::string> warnings;
 

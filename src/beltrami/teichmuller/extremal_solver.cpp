@@ -3,11 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 
-#include <beltrami/conformal/circle_fit.h>
-#include <beltrami/conformal/domain_chart.h>
 #include <beltrami/differentials/polynomial_space.h>
 #include <beltrami/maps/boundary_feasibility.h>
 #include <beltrami/maps/even_dilatation.h>
@@ -17,7 +14,10 @@
 #include <beltrami/mesh/planar.h>
 #include <beltrami/mesh/subdivide.h>
 #include <beltrami/teichmuller/coarse_start.h>
+#include <beltrami/teichmuller/piecewise_solver.h>
+#include <beltrami/teichmuller/prepared_problem.h>
 #include <beltrami/teichmuller/problem.h>
+#include <beltrami/teichmuller/problem_chart.h>
 #include <beltrami/teichmuller/solution_bounds.h>
 
 namespace beltrami {
@@ -54,18 +54,13 @@ constexpr double kRoughRounding = 0.005, kRoughStep = 0.05;
 /// Newton step, as part of the whole, to which the c-step is solved after the iteration.
 constexpr double kFinishingStep = 2e-3;
 constexpr int kFinishingSteps = 20;
-/// Mean |μ| from which on a chart is inaccurate.
-constexpr double kInaccurateChart = 0.03;
-/// Corners of a planar source that turn by more than this (radians) make its Riemann map inaccurate there; with so few
-/// of them poles in its own coordinates do better.
-constexpr double kSharp = 0.5;
-constexpr int kFewCorners = 12;
 /// Distance from the unit circle of a chart's vertex that lies on it.
 constexpr double kRound = 1e-3;
 /// Width of the bracket, as part of K, from which on poles that were thought needless are needed.
 constexpr double kPolesNeeded = 0.01;
-/// By so much a corner's bound must exceed K.
-constexpr double kCornerMargin = 0.01;
+/// Directions of held vertices that turn by less (radians) are kept, and they are followed so often.
+constexpr double kTurned = 0.02;
+constexpr int kMostTurns = 4;
 /// Edges between two corners that are taken at their word.
 constexpr int kResolvedEdges = 12;
 
@@ -79,57 +74,12 @@ void prescribe(Eigen::VectorXcd& map, const BoundaryCondition& boundary) {
     for (std::size_t i = 0; i < boundary.vertices.size(); ++i) map[boundary.vertices[i]] = boundary.images[i];
 }
 
-/// The problem on a mesh that no prescription nails down.
-struct Prepared {
-    std::optional<SplitProblem> split;
-    std::optional<Surface> surface;  ///< of split
-};
-
-Prepared prepare(const Surface& source, const BoundaryCondition& boundary, const ExtremalOptions& options) {
-    options.validate();
-    require_genus_zero(source);
-    validate(boundary, source);
-    require_whole_boundary(boundary, source);
-    require_feasible(source, boundary, options.outer_loop);
-    const std::size_t loops = source.topology.boundary_loops.size();
-    if (!options.turns.empty() && options.turns.size() != loops)
-        throw Error(Cause::bad_option,
-                    "turns are given for " + std::to_string(options.turns.size()) +
-                        " boundary loops, the surface has " + std::to_string(loops),
-                    "give one number per loop, 0 for the outer one");
-    Prepared result;
-    if (!options.split_prescribed) return result;
-    SplitProblem split = split_prescribed(source, boundary);
-    if (split.split_edges == 0) return result;
-    result.surface = surface_of(split.mesh, split.metric);
-    result.split = std::move(split);
-    return result;
-}
-
-/// Whether the outer loop of a planar source lies on a circle.
-bool outer_loop_is_round(const Surface& source) {
-    const Eigen::VectorXcd z = planar_coordinates(source.mesh);
-    std::vector<Complex> outline;
-    for (const int v : source.topology.boundary_loops[0]) outline.push_back(z[v]);
-    return fit_circle(outline).exact();
-}
-
-/// Whether a chart is so inaccurate that a plane source is better described by its own coordinates.
-bool far_from_conformal(const Surface& source, const Chart& chart) {
-    double sum = 0;
-    for (int s = 0; s < source.operators.sample_count(); ++s) {
-        const auto [dz, dzbar] = source.operators.derivatives(s, chart.vertices);
-        sum += source.operators.weights[s] * std::abs(dzbar) / std::abs(dz);
-    }
-    return sum > kInaccurateChart * source.operators.area();
-}
-
 }  // namespace
 
 struct ExtremalSolver::Implementation {
     ExtremalOptions options;
     BoundaryCondition boundary;
-    Prepared prepared;
+    PreparedProblem prepared;
     const Surface& source;
     ExtremalProblem problem;
     HamiltonState state;
@@ -144,6 +94,7 @@ struct ExtremalSolver::Implementation {
     std::vector<Iteration> history;
     std::vector<BoundaryCorner> corners;
     std::vector<LoopPath> paths;  // along which turns are counted
+    HeldVertices held_alone;      // as the space of differentials has them
     bool converged = false;
     int other_factorizations = 0;           // of the chart and the finish
     int earlier_iterations = 0;             // from a start that was given up
@@ -151,20 +102,19 @@ struct ExtremalSolver::Implementation {
     std::optional<Singularities> withheld;  // that φ may have but need not
     bool evened = false, folds_removed = false;
 
-    Implementation(const Surface& given, const BoundaryCondition& b, const ExtremalOptions& o)
+    Implementation(const Surface& given, const BoundaryCondition& b, const ExtremalOptions& o, PreparedProblem p)
         : options(o),
           boundary(b),
-          prepared(prepare(given, boundary, options)),
-          source(prepared.surface ? *prepared.surface : given),
+          prepared(std::move(p)),
+          source(prepared.surface_of(given)),
           problem(source, boundary, kExpectedFactorizations) {
-        if (prepared.split)
-            warnings.push_back(std::to_string(prepared.split->split_edges) +
-                               " edges between prescribed vertices were split; added vertices follow the source's");
+        if (prepared.split) warnings.push_back(prepared.split_warning("prescribed"));
         corners = find_corners(source, boundary);
-        Chart chart = best_chart();
+        Chart chart = chart_of_problem(source, boundary, corners, options.outer_loop, problem.solver());
         other_factorizations += chart.factorizations;
         warnings.insert(warnings.end(), chart.warnings.begin(), chart.warnings.end());
-        Singularities singularities = singularities_of(source, chart, boundary, corners);
+        Singularities singularities = singularities_of(source, chart, boundary, corners, problem.harmonic());
+        held_alone = held_vertices(source, chart, boundary, problem.harmonic());
         problem.set_chart(std::move(chart));
         smooth = singularities.empty();
         // Corners that only a fine mesh would resolve need no poles; that they do not, the coarse problem shows.
@@ -194,39 +144,9 @@ struct ExtremalSolver::Implementation {
         return true;
     }
 
-    /// Whether the outer loop is a polygon of few corners.
-    bool few_sharp_corners() const {
-        int sharp = 0;
-        for (const BoundaryCorner& corner : corners)
-            if (corner.loop == options.outer_loop && std::abs(corner.source_angle - std::numbers::pi) > kSharp) ++sharp;
-        return sharp > 0 && sharp <= kFewCorners;
-    }
-
-    Chart best_chart() const {
-        const bool own_coordinates = options.outer_loop == 0 && source.in_plane();
-        if (own_coordinates && few_sharp_corners() && !outer_loop_is_round(source)) return plane_chart(source);
-        const bool inside = !boundary.lines.empty() || boundary.vertices.size() > boundary_vertex_count();
-        Chart chart = domain_chart(source, options.outer_loop, inside ? nullptr : &problem.solver());
-        if (chart.exact || !own_coordinates || !far_from_conformal(source, chart)) return chart;
-        const int factorizations = chart.factorizations;
-        chart = plane_chart(source);
-        chart.factorizations = factorizations;
-        return chart;
-    }
-
-    std::size_t boundary_vertex_count() const {
-        std::size_t count = 0;
-        for (const auto& loop : source.topology.boundary_loops) count += loop.size();
-        return count;
-    }
-
     void choose_start() {
         map = problem.harmonic();
         if (options.start) {
-            if (options.start->size() != source.mesh.vertex_count() - added())
-                throw Error(Cause::bad_option, "the start has " + std::to_string(options.start->size()) +
-                                                   " values for " +
-                                                   std::to_string(source.mesh.vertex_count() - added()) + " vertices");
             map = prepared.split ? with_parents_means(*options.start, prepared.split->parents) : *options.start;
             prescribe(map, boundary);
         } else if (options.waypoints) {
@@ -251,10 +171,28 @@ struct ExtremalSolver::Implementation {
 
     bool has_plain_start() const { return !options.start && !options.waypoints && options.turns.empty(); }
 
-    int added() const { return prepared.split ? static_cast<int>(prepared.split->parents.size()) : 0; }
+    /// Whether vertices that are held to lines one by one move otherwise under the map than φ takes them to.
+    bool held_have_turned() const {
+        const HeldVertices now = held_vertices(source, problem.chart(), boundary, map);
+        for (std::size_t i = 0; i < now.vertices.size(); ++i)
+            if (std::abs(std::imag(now.directions[i] * std::conj(held_alone.directions[i]))) > kTurned) return true;
+        return false;
+    }
+
+    /// Runs the iteration, with poles that follow the map at vertices held to lines one by one.
+    void iterate(const HamiltonIteration::Options& how) {
+        iterate_once(how);
+        for (int turn = 0; turn < kMostTurns && held_have_turned(); ++turn) {
+            held_alone = held_vertices(source, problem.chart(), boundary, map);
+            problem.set_singularities(singularities_of(source, problem.chart(), boundary, corners, map),
+                                      options.cluster_count);
+            state = {};
+            iterate_once(how);
+        }
+    }
 
     /// Runs the iteration from where it stands.
-    void iterate(HamiltonIteration::Options how) {
+    void iterate_once(const HamiltonIteration::Options& how) {
         problem.map_step().set_near(state.space && problem.solver().factorization_count() > 1);
         HamiltonIteration iteration(source, problem.map_step(), problem.coefficient_step(), how);
         // Only a run from nothing needs a space to begin with, and its basis is costly.
@@ -373,14 +311,27 @@ struct ExtremalSolver::Implementation {
     ExtremalMap record() const;
 };
 
-ExtremalSolver::ExtremalSolver(const Surface& source, const BoundaryCondition& boundary, const ExtremalOptions& options)
-    : implementation_(std::make_unique<Implementation>(source, boundary, options)) {}
+ExtremalSolver::ExtremalSolver(const Surface& source, const BoundaryCondition& boundary,
+                               const ExtremalOptions& options) {
+    PreparedProblem prepared = prepare(source, boundary, options);
+    ProblemPieces cut;
+    // A class that is asked for is one of the whole.
+    if (options.turns.empty() && !options.waypoints) cut = pieces_of(prepared.surface_of(source), boundary);
+    if (cut.pieces.empty()) {
+        implementation_ = std::make_unique<Implementation>(source, boundary, options, std::move(prepared));
+        if (!cut.obstacle.empty()) implementation_->warnings.push_back(cut.obstacle);
+    } else {
+        pieces_ =
+            std::make_unique<PiecewiseSolver>(source, boundary, options, std::move(prepared), std::move(cut.pieces));
+    }
+}
 ExtremalSolver::~ExtremalSolver() = default;
 ExtremalSolver::ExtremalSolver(ExtremalSolver&&) noexcept = default;
 
 ExtremalSolver::Update ExtremalSolver::update(const std::vector<Complex>& images, int max_iterations) {
-    Implementation& m = *implementation_;
     if (max_iterations < 1) throw Error(Cause::bad_option, "an update needs at least one iteration");
+    if (pieces_) return pieces_->update(images, max_iterations);
+    Implementation& m = *implementation_;
     if (images.size() != m.boundary.images.size())
         throw Error(Cause::bad_boundary, "there are " + std::to_string(images.size()) + " new images for " +
                                              std::to_string(m.boundary.images.size()) + " prescribed vertices");
@@ -399,6 +350,7 @@ ExtremalSolver::Update ExtremalSolver::update(const std::vector<Complex>& images
 }
 
 ExtremalMap ExtremalSolver::solve() {
+    if (pieces_) return pieces_->solve();
     Implementation& m = *implementation_;
     m.history.clear();
     m.earlier_iterations = 0;
@@ -412,7 +364,7 @@ ExtremalMap ExtremalSolver::solve() {
 void ExtremalSolver::Implementation::run() {
     using Evening = ExtremalOptions::Evening;
     evened = false;
-    if ((problem.singular() || withheld) && options.evening != Evening::never) {
+    if ((problem.singular() || withheld) && !problem.jumps() && options.evening != Evening::never) {
         // Evening out moves φ more than the last digits of the iteration do.
         HamiltonIteration::Options rough = iteration_options(options);
         rough.tolerance = std::max(rough.tolerance, kRoughTolerance);
@@ -485,13 +437,9 @@ ExtremalMap ExtremalSolver::Implementation::record() const {
             result.sharpest = corner;
     if (result.sharpest) {
         result.bounds.push_back({"corner", result.sharpest->safe_bound, Bound::Of::extremal, false});
-        if (converged && result.sharpest->safe_bound > (1 + kCornerMargin) * result.K) {
+        if (converged && corner_decides(*result.sharpest, result.K)) {
             result.termination = Termination::not_teichmuller;
-            result.warnings.push_back("at vertex " + std::to_string(result.sharpest->vertex) +
-                                      " the boundary values alone force K ≥ " +
-                                      std::to_string(result.sharpest->safe_bound) +
-                                      ": the extremal map is not of Teichmüller type; gentler speed there "
-                                      "(--speed conformal) or other boundary values would lower K");
+            result.warnings.push_back(corner_warning(*result.sharpest));
         }
     }
     result.bounds.push_back({"mesh_harmonic", mesh_harmonic_bound(operators, result.harmonic), Bound::Of::mesh, true});
@@ -500,10 +448,6 @@ ExtremalMap ExtremalSolver::Implementation::record() const {
         result.warnings.push_back("flipped faces in the result: " + std::to_string(result.distortion.flipped.size()) +
                                   "; it is not one-to-one there" +
                                   (result.K_lower > 1 ? "" : " and no lower bound can be given"));
-    if (!boundary.lines.empty())
-        result.warnings.push_back(
-            "vertices are held to lines, at which the quadratic differential has no poles: K_lower holds, but K need "
-            "not be near K*");
     if (result.termination == Termination::iteration_limit)
         result.warnings.push_back("stopped after " + std::to_string(result.iterations) +
                                   " iterations before k and φ settled");

@@ -6,6 +6,8 @@
 
 namespace beltrami {
 
+class PiecewiseSolver;
+
 /// The extremal map of one source for boundary values that change: handles are dragged, the boundary is moved, and the
 /// map follows. The system's analysis, the chart and the space of differentials are kept; each new solve starts from
 /// the last φ, k and factorisation.
@@ -44,6 +46,7 @@ class ExtremalSolver {
   private:
     struct Implementation;
     std::unique_ptr<Implementation> implementation_;
+    std::unique_ptr<PiecewiseSolver> pieces_;  ///< instead, where pinned curves cut the surface
 };
 
 }  // namespace beltrami

@@ -117,8 +117,7 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
     double last_change = 1, relaxation = 1;
     bool accelerated = false;
     while (iterations_ < options_.max_iterations) {
-        const Eigen::VectorXcd phi = coefficient_step_.values(state.direction),
-                               nu = teichmueller_coefficient(state.k, phi);
+        const Eigen::VectorXcd nu = coefficient_step_.coefficient(state.k, coefficient_step_.values(state.direction));
         map_step_.solve(nu, map_, kSolveBelowChange * std::min(change, 0.1));
         ++iterations_;
         const Eigen::VectorXcd mu = beltrami_coefficient(source_.operators, map_);

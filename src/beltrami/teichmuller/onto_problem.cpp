@@ -70,7 +70,7 @@ void record_bounds(const ReichStrebel& integrals, double k, ExtremalMapOnto& res
 
 }  // namespace
 
-OntoProblem::Prepared OntoProblem::prepare(const Surface& source, const OntoOptions& options) {
+PreparedProblem OntoProblem::prepare(const Surface& source, const OntoOptions& options) {
     options.validate();
     require_genus_zero(source);
     const int loops = static_cast<int>(source.topology.boundary_loops.size());
@@ -85,18 +85,13 @@ OntoProblem::Prepared OntoProblem::prepare(const Surface& source, const OntoOpti
             throw Error(Cause::bad_boundary,
                         "the marked vertex " + std::to_string(mark.vertex) + " is not on the boundary of the source",
                         "mark boundary vertices only", {mark.vertex});
-    Prepared result;
-    SplitProblem split = split_bridges(source);
-    if (split.split_edges == 0) return result;
-    result.surface = surface_of(split.mesh, split.metric);
-    result.split = std::move(split);
-    return result;
+    return prepared(split_bridges(source));
 }
 
 OntoProblem::OntoProblem(const Surface& source, const OntoOptions& options)
     : options_(options),
       prepared_(prepare(source, options)),
-      source_(prepared_.surface ? *prepared_.surface : source),
+      source_(prepared_.surface_of(source)),
       domain_(circle_domain_chart(source_, options.outer_loop)),
       marked_(marked_vertices(source_, options.marks)) {}
 
@@ -212,9 +207,7 @@ void OntoProblem::record_loops(const std::vector<int>& curves, const SlidingBoun
 }
 
 void OntoProblem::record_warnings(ExtremalMapOnto& result) const {
-    if (prepared_.split)
-        result.warnings.push_back(std::to_string(prepared_.split->split_edges) +
-                                  " edges between boundary vertices were split; added vertices follow the source's");
+    if (prepared_.split) result.warnings.push_back(prepared_.split_warning("boundary"));
     result.warnings.insert(result.warnings.end(), domain_.chart.warnings.begin(), domain_.chart.warnings.end());
     if (result.dimension != result.expected_dimension)
         result.warnings.push_back("the space of differentials has dimension " + std::to_string(result.dimension) +

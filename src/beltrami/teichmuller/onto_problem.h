@@ -1,6 +1,7 @@
 #pragma once
 
 #include <beltrami/teichmuller/onto_differentials.h>
+#include <beltrami/teichmuller/prepared_problem.h>
 #include <beltrami/teichmuller/sliding_map_step.h>
 #include <beltrami/teichmuller/sliding_start.h>
 
@@ -19,11 +20,7 @@ class OntoProblem {
     ExtremalMapOnto solve(const TargetModel& target);
 
   private:
-    struct Prepared {
-        std::optional<SplitProblem> split;
-        std::optional<Surface> surface;  ///< of split
-    };
-    static Prepared prepare(const Surface& source, const OntoOptions& options);
+    static PreparedProblem prepare(const Surface& source, const OntoOptions& options);
 
     SlidingStart start(const TargetModel& target) const;
     void iterate(OntoDifferentials phi, SlidingBoundary& boundary, SlidingMapStep& step, ExtremalMapOnto& result) const;
@@ -32,7 +29,7 @@ class OntoProblem {
     void record_warnings(ExtremalMapOnto& result) const;
 
     const OntoOptions& options_;
-    Prepared prepared_;
+    PreparedProblem prepared_;
     const Surface& source_;
     CircleDomainChart domain_;
     std::vector<int> marked_;  ///< in the order of the loops

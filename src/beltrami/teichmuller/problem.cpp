@@ -6,6 +6,7 @@
 
 #include <beltrami/differentials/polynomial_space.h>
 #include <beltrami/differentials/rational_space.h>
+#include <beltrami/maps/inner_constraints.h>
 #include <beltrami/mesh/inside_polygon.h>
 
 namespace beltrami {
@@ -21,6 +22,12 @@ constexpr double kReach = 1.0, kHoleReach = 0.8, kFinest = 0.4;
 constexpr int kLeastGap = 6;
 /// Samples for every function at a corner: the most significant corners come first.
 constexpr int kSamplesPerFunction = 40;
+
+/// A curve of inner constraints is continued outside in its own direction where that is so near to the outward one,
+/// over at most this part of the way to the next boundary.
+constexpr double kLeastCosine = 0.5, kFreePart = 0.5;
+/// A curve held to a line bends sharply where it turns by more than this (radians).
+constexpr double kSharpBend = 0.4;
 
 /// See ExtremalProblem::phase.
 double phase_of(const Chart& chart, const BoundaryCondition& boundary) {
@@ -41,6 +48,20 @@ class ChartDomain {
             for (const int v : loop) polygon.push_back(chart.vertices[v]);
         }
         outer_ = chart.outer_loop;
+    }
+    /// How far from a boundary vertex at @p from the ray in direction @p along meets the boundary again, at most @p
+    /// far.
+    double free_way(Complex from, Complex along, double far) const {
+        for (const auto& polygon : polygons_)
+            for (std::size_t i = 0; i < polygon.size(); ++i) {
+                // The edge in the frame of the ray, which is the positive real axis.
+                const Complex a = (polygon[i] - from) * std::conj(along),
+                              b = (polygon[(i + 1) % polygon.size()] - from) * std::conj(along);
+                if (std::abs(a) == 0 || std::abs(b) == 0 || (a.imag() > 0) == (b.imag() > 0)) continue;
+                const double at = a.real() - a.imag() * (b.real() - a.real()) / (b.imag() - a.imag());
+                if (at > 0) far = std::min(far, at);
+            }
+        return far;
     }
     bool contains(Complex z) const {
         for (std::size_t l = 0; l < polygons_.size(); ++l)
@@ -76,23 +97,144 @@ void ExtremalProblem::set_singularities(Singularities singularities, int cluster
 
 std::unique_ptr<DifferentialSpace> ExtremalProblem::starting_space(int largest_degree) const {
     if (singularities_.empty()) return PolynomialSpace::starting_space(largest_degree);
-    const SampleClusters& clusters = coefficient_step_->clusters();
-    RationalSpace::Quadrature quadrature{clusters.points.positions,
-                                         Eigen::VectorXd::Zero(clusters.points.positions.size())};
-    for (std::size_t s = 0; s < clusters.cluster.size(); ++s)
-        if (clusters.cluster[s] >= 0) quadrature.weights[clusters.cluster[s]] += clusters.squared[s];
-    return RationalSpace::starting_space(singularities_, std::move(quadrature), largest_degree);
+    const QuadraturePoints& quadrature = coefficient_step_->quadrature();
+    return RationalSpace::starting_space(singularities_, {quadrature.points, quadrature.weights}, largest_degree);
+}
+
+namespace {
+
+/// Where a curve leaves the domain at a boundary vertex: points of its continuation outside, from the vertex on.
+std::vector<Complex> continuation(const Surface& source, const Chart& chart, const ChartDomain& domain, int vertex,
+                                  Complex before) {
+    std::vector<Complex> points;
+    const Complex at = chart.vertices[vertex];
+    for (const auto& loop : source.topology.boundary_loops) {
+        const auto found = std::find(loop.begin(), loop.end(), vertex);
+        if (found == loop.end()) continue;
+        const auto i = static_cast<std::size_t>(found - loop.begin());
+        const Complex along =
+            chart.vertices[loop[(i + 1) % loop.size()]] - chart.vertices[loop[(i + loop.size() - 1) % loop.size()]];
+        const double edge = std::abs(at - before);
+        if (!(std::abs(along) > 0) || !(edge > 0)) break;
+        Complex direction = (at - before) / edge;
+        const Complex outward = Complex(0, -1) * along / std::abs(along);
+        if (std::real(direction * std::conj(outward)) < kLeastCosine) direction = outward;
+        const double reach = kFreePart * domain.free_way(at, direction, kReach / kFreePart);
+        if (domain.contains(at + 0.01 * reach * direction)) break;
+        double distance = 0;
+        for (double step = edge; distance + step <= reach; step *= 2)
+            points.push_back(at + (distance += step) * direction);
+        break;
+    }
+    return points;
+}
+
+/// Appends the curves of inner constraints, and the poles at their ends and elsewhere.
+void add_inner(const Surface& source, const Chart& chart, const BoundaryCondition& boundary, const ChartDomain& domain,
+               Singularities& result) {
+    const Eigen::VectorXcd& z = chart.vertices;
+    std::vector<char> pole(source.mesh.vertex_count(), 0);
+    for (const int v : boundary.vertices) pole[v] = !source.topology.on_boundary[v];
+    std::vector<char> held(source.mesh.vertex_count(), 0);
+    for (const auto& line : boundary.lines) held[line.vertex] = 1;
+    std::vector<int> bends;
+    for (const ConstraintCurve& whole : constraint_curves(boundary, source)) {
+        // Parts between sharp bends of what is held to a line: there points cannot slide.
+        const bool real = whole.kind == EdgeConstraint::on_line;
+        const auto& v = whole.vertices;
+        std::vector<std::size_t> ends{0};
+        for (std::size_t i = 1; i + 1 < v.size(); ++i) {
+            const Complex turn = (z[v[i + 1]] - z[v[i]]) * std::conj(z[v[i]] - z[v[i - 1]]);
+            if (real && std::abs(std::arg(turn)) > kSharpBend) {
+                ends.push_back(i);
+                pole[v[i]] = 1;
+                bends.push_back(v[i]);
+            } else if (!real) {
+                pole[v[i]] = 0;  // the jump takes its part
+            }
+        }
+        ends.push_back(v.size() - 1);
+        for (std::size_t part = 1; part < ends.size(); ++part) {
+            const std::size_t from = ends[part - 1], to = ends[part];
+            Singularities::Curve curve{{}, 0, 0, real, whole.closed() && ends.size() == 2};
+            for (std::size_t i = from; i <= to; ++i) curve.points.push_back(z[v[i]]);
+            if (!curve.closed) {
+                for (const bool last : {true, false}) {
+                    const int end = last ? v[to] : v[from];
+                    const Complex before = z[last ? v[to - 1] : v[from + 1]];
+                    if (source.topology.on_boundary[end]) {
+                        std::vector<Complex> outside = continuation(source, chart, domain, end, before);
+                        if (last) {
+                            curve.points.insert(curve.points.end(), outside.begin(), outside.end());
+                        } else {
+                            curve.first = static_cast<int>(outside.size());
+                            curve.points.insert(curve.points.begin(), outside.rbegin(), outside.rend());
+                        }
+                    } else if (held[end] && !pole[end]) {
+                        const Complex tangent = (z[end] - before) / std::abs(z[end] - before);
+                        result.held.push_back({z[end], Complex(0, 1) * std::conj(tangent)});
+                    }
+                }
+            }
+            curve.last = curve.first + static_cast<int>(to - from);
+            result.curves.push_back(std::move(curve));
+        }
+    }
+    for (const int v : boundary.vertices)
+        if (pole[v]) result.pins.push_back(z[v]);
+    for (const int v : bends) result.pins.push_back(z[v]);
+}
+
+}  // namespace
+
+HeldVertices held_vertices(const Surface& source, const Chart& chart, const BoundaryCondition& boundary,
+                           const Eigen::VectorXcd& map) {
+    HeldVertices result;
+    if (boundary.lines.empty()) return result;
+    std::vector<char> alone(source.mesh.vertex_count(), 0);
+    for (const auto& line : boundary.lines) alone[line.vertex] = 1;
+    for (const ConstraintCurve& curve : constraint_curves(boundary, source))
+        for (const int v : curve.vertices) alone[v] = 0;
+    const Eigen::VectorXcd along = line_directions(boundary, source);
+    std::vector<Complex> sum(source.mesh.vertex_count(), 0.0);
+    for (int s = 0; s < source.operators.sample_count(); ++s) {
+        const auto stencil = source.operators.stencil(s);
+        if (chart.excluded[s] || std::none_of(stencil.begin(), stencil.end(), [&](int v) { return alone[v]; }))
+            continue;
+        const auto [f_z, f_zbar] = source.operators.derivatives(s, map);
+        const auto [g_z, g_zbar] = source.operators.derivatives(s, chart.vertices);
+        const double determinant = std::norm(f_z) - std::norm(f_zbar);
+        if (!(determinant > 0)) continue;
+        const auto corners = static_cast<int>(stencil.size());
+        for (int j = 0; j < corners; ++j) {
+            const int v = stencil[j];
+            if (!alone[v]) continue;
+            const Complex moved = (std::conj(f_z) * along[v] - f_zbar * std::conj(along[v])) / determinant;
+            const Complex next = chart.vertices[stencil[(j + 1) % corners]] - chart.vertices[v],
+                          last = chart.vertices[stencil[(j + corners - 1) % corners]] - chart.vertices[v];
+            sum[v] += std::arg(last * std::conj(next)) * (g_z * moved + g_zbar * std::conj(moved));
+        }
+    }
+    for (int v = 0; v < source.mesh.vertex_count(); ++v) {
+        if (!alone[v]) continue;
+        result.vertices.push_back(v);
+        result.directions.push_back(std::abs(sum[v]) > 0 ? sum[v] / std::abs(sum[v]) : Complex(1));
+    }
+    return result;
 }
 
 Singularities singularities_of(const Surface& source, const Chart& chart, const BoundaryCondition& boundary,
-                               const std::vector<BoundaryCorner>& corners) {
+                               const std::vector<BoundaryCorner>& corners, const Eigen::VectorXcd& map) {
     Singularities result;
     for (const Chart::Hole& hole : chart.holes) {
         const int edges = static_cast<int>(source.topology.boundary_loops[hole.loop].size());
         result.holes.push_back({hole.centre, hole.radius, std::clamp(edges / kEdgesPerPower, kLeastPower, kMostPower)});
     }
-    for (const int v : boundary.vertices)
-        if (!source.topology.on_boundary[v]) result.pins.push_back(chart.vertices[v]);
+    const ChartDomain domain(source, chart);
+    add_inner(source, chart, boundary, domain, result);
+    const HeldVertices held = held_vertices(source, chart, boundary, map);
+    for (std::size_t i = 0; i < held.vertices.size(); ++i)
+        result.held.push_back({chart.vertices[held.vertices[i]], Complex(0, 1) * std::conj(held.directions[i])});
     // Equal corners (those of a square) in the order of the boundary, whatever rounding makes of their significance.
     std::vector<BoundaryCorner> ordered = corners;
     const auto rank = [](const BoundaryCorner& c) {
@@ -100,7 +242,6 @@ Singularities singularities_of(const Surface& source, const Chart& chart, const 
     };
     std::sort(ordered.begin(), ordered.end(),
               [&](const BoundaryCorner& a, const BoundaryCorner& b) { return rank(a) < rank(b); });
-    const ChartDomain domain(source, chart);
     const int budget = source.operators.sample_count() / (kSamplesPerFunction * RationalSpace::corner_poles);
     double least = 0;
     for (const BoundaryCorner& corner : ordered) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -30,8 +31,15 @@ class ExtremalProblem {
     const Eigen::VectorXcd& harmonic() const { return harmonic_; }
     const Chart& chart() const { return chart_; }
     CoefficientStep& coefficient_step() { return *coefficient_step_; }
-    /// Whether φ may be singular within reach of the mesh: at corners or pinned points.
+    /// Whether φ may be singular within reach of the mesh: at corners or pinned points. (Where vertices slide poles and
+    /// jumps are mild, and a map that has settled need not be evened out.)
     bool singular() const { return !singularities_.corners.empty() || !singularities_.pins.empty(); }
+    /// Whether φ may jump across curves by anything: it takes its time to find by how much, and a map that is evened
+    /// out before keeps the error (measured: .0027 in place of .0002).
+    bool jumps() const {
+        return std::any_of(singularities_.curves.begin(), singularities_.curves.end(),
+                           [](const Singularities::Curve& curve) { return !curve.real; });
+    }
     /// Rotation of the chart that turns with the source when the boundary values are carried along.
     double phase() const { return phase_; }
 
@@ -51,7 +59,18 @@ class ExtremalProblem {
 };
 
 /// What the chart's holes, the constraints inside and the corners of domain and boundary values allow φ to have.
+/// @param map of which the derivative says where vertices may move that are held to lines one by one; those of curves
+///            move along these
 Singularities singularities_of(const Surface& source, const Chart& chart, const BoundaryCondition& boundary,
-                               const std::vector<BoundaryCorner>& corners);
+                               const std::vector<BoundaryCorner>& corners, const Eigen::VectorXcd& map);
+
+/// The vertices that are held to lines one by one, ascending, and the directions of length 1 in which they move in the
+/// chart when their images move along the lines: means over the angles at the vertex, as a pole of φ sees them.
+struct HeldVertices {
+    std::vector<int> vertices;
+    std::vector<Complex> directions;
+};
+HeldVertices held_vertices(const Surface& source, const Chart& chart, const BoundaryCondition& boundary,
+                           const Eigen::VectorXcd& map);
 
 }  // namespace beltrami

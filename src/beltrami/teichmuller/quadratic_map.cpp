@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include <beltrami/maps/inner_constraints.h>
 #include <beltrami/mesh/error.h>
 #include <beltrami/teichmuller/differential_quadrature.h>
 
@@ -131,9 +132,10 @@ QuadraticStep::QuadraticStep(const Surface& source, const BoundaryCondition& bou
     quadratic_.operators = quadratic_operators(source);
     const Topology& topology = source.topology;
     std::vector<Freedom> freedom = freedoms(boundary, source);
-    for (const auto& [left, right] : topology.edge_faces) {
-        const bool rim = left < 0 || right < 0;
-        freedom.push_back(rim ? Freedom::fixed : Freedom::free);
+    const std::vector<EdgeConstraint> inner = edge_constraints(boundary, source);
+    for (int e = 0; e < topology.edge_count(); ++e) {
+        const bool rim = topology.edge_faces[e][0] < 0 || topology.edge_faces[e][1] < 0;
+        freedom.push_back(rim || inner[e] == EdgeConstraint::pinned ? Freedom::fixed : Freedom::free);
         quadratic_.topology.on_boundary.push_back(rim);
     }
     std::vector<FacePoint> points;

@@ -1,5 +1,6 @@
 #include <beltrami/teichmuller/refined_problem.h>
 
+#include <beltrami/maps/inner_constraints.h>
 #include <beltrami/mesh/quad_split.h>
 
 namespace beltrami {
@@ -68,9 +69,18 @@ RefinedProblem refined_problem(const Surface& source, const BoundaryCondition& b
     const Topology& topology = source.topology;
     const Eigen::VectorXcd values = prescribed_values(boundary, source);
     BoundaryCondition finer = boundary;
-    for (int e = 0; e < topology.edge_count(); ++e)
-        if (topology.edge_faces[e][0] < 0 || topology.edge_faces[e][1] < 0)
-            finer.pin(vertices + e, 0.5 * (values[topology.edges[e][0]] + values[topology.edges[e][1]]));
+    const Eigen::VectorXcd directions = line_directions(boundary, source);
+    const std::vector<EdgeConstraint> inner = edge_constraints(boundary, source);
+    for (int e = 0; e < topology.edge_count(); ++e) {
+        const auto [a, b] = topology.edges[e];
+        const bool rim = topology.edge_faces[e][0] < 0 || topology.edge_faces[e][1] < 0;
+        if (rim || inner[e] == EdgeConstraint::pinned) {
+            finer.pin(vertices + e, 0.5 * (values[a] + values[b]));
+        } else if (inner[e] == EdgeConstraint::on_line) {
+            const int held = directions[a] != 0.0 ? a : b;
+            finer.pin_to_line(vertices + e, values[held], directions[held]);
+        }
+    }
     return {surface_of(std::move(fine.mesh), std::move(metric)), std::move(finer), std::move(fine.parents)};
 }
 

@@ -35,6 +35,14 @@ SameClass same_class(const Solution& s, const QuadraticMap& map) {
     return result;
 }
 
+/// Whether φ jumps where and as it may. Across edges with pinned ends it may in any way, and in a chart that is a
+/// similarity they are straight. Where points slide on a line φ is admissible to first order in their motion only.
+bool jumps_are_exact(const Solution& s) {
+    std::size_t rim = 0;
+    for (const auto& loop : s.source.topology.boundary_loops) rim += loop.size();
+    return s.boundary.lines.empty() && (s.outer_loop == 0 || s.boundary.vertices.size() == rim);
+}
+
 }  // namespace
 
 SolutionBounds solution_bounds(const Solution& s, std::optional<int> subdivisions) {
@@ -67,14 +75,14 @@ SolutionBounds solution_bounds(const Solution& s, std::optional<int> subdivision
     bool rigorous = false;
     if (own.valid) {
         lower = std::max(lower, own.lower);
-        rigorous = own.resolved && proves(s.source, s.chart);
+        rigorous = own.resolved && proves(s.source, s.chart) && jumps_are_exact(s);
         estimate = own.estimate;
     }
     if (sharpened) {
         // Bound and estimate belong together: those of the map that does better.
         if (sharp.lower > lower || !own.valid) {
             lower = std::max(lower, sharp.lower);
-            rigorous = sharp.rigorous && same.known;
+            rigorous = sharp.rigorous && same.known && jumps_are_exact(s);
             estimate = sharp.integrals.estimate;
         }
     }

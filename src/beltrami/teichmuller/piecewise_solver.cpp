@@ -1,0 +1,177 @@
+#include <beltrami/teichmuller/piecewise_solver.h>
+
+#include <algorithm>
+#include <limits>
+
+#include <beltrami/conformal/domain_chart.h>
+#include <beltrami/maps/boundary_feasibility.h>
+#include <beltrami/mesh/error.h>
+#include <beltrami/mesh/planar.h>
+#include <beltrami/mesh/subdivide.h>
+
+namespace beltrami {
+
+PiecewiseSolver::PiecewiseSolver(const Surface& source, const BoundaryCondition& boundary,
+                                 const ExtremalOptions& options, PreparedProblem prepared,
+                                 std::vector<ProblemPiece> pieces)
+    : options_(options),
+      boundary_(boundary),
+      prepared_(std::move(prepared)),
+      source_(prepared_.surface_of(source)),
+      pieces_(std::move(pieces)) {
+    std::optional<Eigen::VectorXcd> start = options_.start;
+    if (start && prepared_.split) start = with_parents_means(*start, prepared_.split->parents);
+    for (const ProblemPiece& piece : pieces_) {
+        ExtremalOptions own = options_;
+        own.outer_loop = piece.outer_loop;
+        own.split_prescribed = false;  // done for the whole
+        if (start) own.start = (*start)(piece.vertices);
+        if (options_.progress)
+            own.progress = [this](int iteration, double k) {
+                return options_.progress(iterations_before_ + iteration, k);
+            };
+        solvers_.emplace_back(piece.surface, piece.boundary, own);
+    }
+    if (source_.topology.boundary_loops.size() > 1) {
+        Eigen::VectorXcd places;
+        if (source_.in_plane() && options_.outer_loop == 0) {
+            places = planar_coordinates(source_.mesh);
+        } else {
+            const Chart chart = domain_chart(source_, options_.outer_loop);
+            places = chart.vertices;
+            chart_factorizations_ = chart.factorizations;
+        }
+        paths_ = loop_paths(source_, places, options_.outer_loop);
+    }
+    map_ = Eigen::VectorXcd::Zero(source_.mesh.vertex_count());
+}
+
+std::string PiecewiseSolver::name(std::size_t piece) const {
+    return "in the piece of face " + std::to_string(pieces_[piece].faces[0]) + " (" +
+           std::to_string(pieces_[piece].faces.size()) + " faces, its vertices and loops counted anew): ";
+}
+
+ExtremalSolver::Update PiecewiseSolver::update(const std::vector<Complex>& images, int max_iterations) {
+    if (images.size() != boundary_.images.size())
+        throw Error(Cause::bad_boundary, "there are " + std::to_string(images.size()) + " new images for " +
+                                             std::to_string(boundary_.images.size()) + " prescribed vertices");
+    BoundaryCondition moved = boundary_;
+    moved.images = images;
+    require_feasible(source_, moved, options_.outer_loop);
+    std::vector<std::vector<Complex>> own(pieces_.size());
+    for (std::size_t p = 0; p < pieces_.size(); ++p) {
+        for (const int pin : pieces_[p].pins) own[p].push_back(images[pin]);
+        BoundaryCondition part = pieces_[p].boundary;
+        part.images = own[p];
+        require_feasible(pieces_[p].surface, part, pieces_[p].outer_loop);
+    }
+    boundary_ = std::move(moved);
+    ExtremalSolver::Update result{map_, 0, 0, 0, true};
+    for (std::size_t p = 0; p < pieces_.size(); ++p) {
+        pieces_[p].boundary.images = own[p];
+        const ExtremalSolver::Update part = solvers_[p].update(own[p], max_iterations);
+        map_(pieces_[p].vertices) = part.map;
+        result.k = std::max(result.k, part.k);
+        result.change = std::max(result.change, part.change);
+        result.flipped += part.flipped;
+        result.converged = result.converged && part.converged;
+    }
+    return result;
+}
+
+ExtremalMap PiecewiseSolver::solve() {
+    ExtremalMap whole;
+    std::vector<ExtremalMap> parts;
+    iterations_before_ = 0;
+    for (ExtremalSolver& solver : solvers_) {
+        parts.push_back(solver.solve());
+        iterations_before_ += parts.back().iterations;
+    }
+    merge(parts, whole);
+    map_ = whole.map;
+    return whole;
+}
+
+void PiecewiseSolver::merge(std::vector<ExtremalMap>& parts, ExtremalMap& whole) const {
+    const Operators& operators = source_.operators;
+    whole.map = whole.harmonic = Eigen::VectorXcd::Zero(source_.mesh.vertex_count());
+    whole.phi = Eigen::VectorXcd::Zero(operators.sample_count());
+    whole.split = prepared_.split;
+    whole.factorizations = chart_factorizations_;
+    if (prepared_.split) whole.warnings.push_back(prepared_.split_warning("prescribed"));
+    std::size_t decisive = 0;
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+        ExtremalMap& part = parts[p];
+        whole.map(pieces_[p].vertices) = part.map;
+        whole.harmonic(pieces_[p].vertices) = part.harmonic;
+        whole.phi(pieces_[p].samples) = part.phi;
+        whole.iterations += part.iterations;
+        whole.factorizations += part.factorizations;
+        whole.evened = whole.evened || part.evened;
+        whole.folds_removed = whole.folds_removed || part.folds_removed;
+        whole.pieces.push_back({pieces_[p].faces, part.k, part.K, part.K_lower, part.termination});
+        if (part.termination == Termination::iteration_limit) whole.termination = Termination::iteration_limit;
+        if (part.K > parts[decisive].K) decisive = p;
+        // Warnings about corners name vertices of the whole.
+        if (part.sharpest) {
+            const BoundaryCorner& corner = *part.sharpest;
+            const bool decides = part.termination == Termination::not_teichmuller;
+            const std::string own = decides ? corner_warning(corner) : std::string();
+            BoundaryCorner moved = corner;
+            moved.vertex = pieces_[p].vertices[corner.vertex];
+            for (std::string& warning : part.warnings)
+                whole.warnings.push_back(warning == own ? corner_warning(moved) : name(p) + warning);
+            if (!whole.sharpest || moved.safe_bound > whole.sharpest->safe_bound) whole.sharpest = moved;
+        } else {
+            for (std::string& warning : part.warnings) whole.warnings.push_back(name(p) + warning);
+        }
+    }
+    // Pieces count their loops themselves.
+    if (whole.sharpest) {
+        whole.sharpest->loop = whole.sharpest->position = -1;
+        for (std::size_t l = 0; l < source_.topology.boundary_loops.size(); ++l) {
+            const auto& loop = source_.topology.boundary_loops[l];
+            const auto at = std::find(loop.begin(), loop.end(), whole.sharpest->vertex);
+            if (at == loop.end()) continue;
+            whole.sharpest->loop = static_cast<int>(l);
+            whole.sharpest->position = static_cast<int>(at - loop.begin());
+        }
+    }
+    whole.corners = find_corners(source_, boundary_);
+    whole.history = std::move(parts[decisive].history);
+    whole.distortion = distortion(operators, whole.map);
+    whole.K_max =
+        whole.distortion.flipped.empty() ? dilatation(whole.distortion.max) : std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < boundary_.vertices.size(); ++i)
+        whole.boundary_residual =
+            std::max(whole.boundary_residual, std::abs(whole.map[boundary_.vertices[i]] - boundary_.images[i]));
+    if (!paths_.empty()) whole.homotopy = homotopy_class(source_, paths_, whole.map, options_.outer_loop);
+    merge_bounds(parts, whole);
+    if (whole.termination == Termination::converged && whole.sharpest && corner_decides(*whole.sharpest, whole.K))
+        whole.termination = Termination::not_teichmuller;
+}
+
+/// Of every kind the largest, for a bound of a piece's map is one of the whole's.
+void PiecewiseSolver::merge_bounds(const std::vector<ExtremalMap>& parts, ExtremalMap& whole) const {
+    const auto take = [&](const std::string& kind, bool rigorous_alone) {
+        const Bound* best = nullptr;
+        for (const ExtremalMap& part : parts)
+            for (const Bound& bound : part.bounds)
+                if (bound.kind == kind && (bound.rigorous || !rigorous_alone) && (!best || bound.K > best->K))
+                    best = &bound;
+        return best;
+    };
+    const Bound *lower = take("reich_strebel", false), *proved = take("reich_strebel", true);
+    if (lower) whole.bounds.push_back(*lower);
+    if (proved && proved != lower) whole.bounds.push_back(*proved);
+    for (const char* kind : {"reich_strebel_estimate", "averaged_estimate", "corner", "mesh_harmonic"})
+        if (const Bound* bound = take(kind, false)) whole.bounds.push_back(*bound);
+    if (whole.distortion.flipped.empty()) whole.bounds.push_back({"attained", whole.K_max, Bound::Of::extremal, true});
+    for (const ExtremalMap& part : parts) {
+        whole.K = std::max(whole.K, part.K);
+        whole.K_lower = std::max(whole.K_lower, part.K_lower);
+    }
+    whole.k = (whole.K - 1) / (whole.K + 1);
+}
+
+}  // namespace beltrami

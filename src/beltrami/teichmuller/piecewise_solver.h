@@ -1,0 +1,39 @@
+#pragma once
+
+#include <beltrami/teichmuller/extremal_solver.h>
+#include <beltrami/teichmuller/pieces.h>
+#include <beltrami/teichmuller/prepared_problem.h>
+
+namespace beltrami {
+
+/// ExtremalSolver of a surface that pinned curves cut into pieces: a solver for each, and one record of the whole.
+class PiecewiseSolver {
+  public:
+    /// @param source kept by reference
+    /// @param pieces of the prepared surface, at least one
+    PiecewiseSolver(const Surface& source, const BoundaryCondition& boundary, const ExtremalOptions& options,
+                    PreparedProblem prepared, std::vector<ProblemPiece> pieces);
+    PiecewiseSolver(const PiecewiseSolver&) = delete;
+
+    /// As those of ExtremalSolver.
+    ExtremalSolver::Update update(const std::vector<Complex>& images, int max_iterations);
+    ExtremalMap solve();
+
+  private:
+    std::string name(std::size_t piece) const;
+    void merge(std::vector<ExtremalMap>& parts, ExtremalMap& whole) const;
+    void merge_bounds(const std::vector<ExtremalMap>& parts, ExtremalMap& whole) const;
+
+    ExtremalOptions options_;
+    BoundaryCondition boundary_;
+    PreparedProblem prepared_;
+    const Surface& source_;
+    std::vector<ProblemPiece> pieces_;
+    std::vector<ExtremalSolver> solvers_;
+    std::vector<LoopPath> paths_;  // along which turns are counted
+    int chart_factorizations_ = 0;
+    int iterations_before_ = 0;  // those that progress has seen
+    Eigen::VectorXcd map_;
+};
+
+}  // namespace beltrami

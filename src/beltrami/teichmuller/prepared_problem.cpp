@@ -1,0 +1,40 @@
+#include <beltrami/teichmuller/prepared_problem.h>
+
+#include <beltrami/maps/boundary_feasibility.h>
+#include <beltrami/mesh/error.h>
+
+namespace beltrami {
+
+std::string PreparedProblem::split_warning(const char* kind) const {
+    return std::to_string(split->split_edges) + " edges between " + kind +
+           " vertices were split; added vertices follow the source's";
+}
+
+PreparedProblem prepared(SplitProblem split) {
+    PreparedProblem result;
+    if (split.split_edges == 0) return result;
+    result.surface = surface_of(split.mesh, split.metric);
+    result.split = std::move(split);
+    return result;
+}
+
+PreparedProblem prepare(const Surface& source, const BoundaryCondition& boundary, const ExtremalOptions& options) {
+    options.validate();
+    require_genus_zero(source);
+    validate(boundary, source);
+    require_whole_boundary(boundary, source);
+    require_feasible(source, boundary, options.outer_loop);
+    const std::size_t loops = source.topology.boundary_loops.size();
+    if (!options.turns.empty() && options.turns.size() != loops)
+        throw Error(Cause::bad_option,
+                    "turns are given for " + std::to_string(options.turns.size()) +
+                        " boundary loops, the surface has " + std::to_string(loops),
+                    "give one number per loop, 0 for the outer one");
+    if (options.start && options.start->size() != source.mesh.vertex_count())
+        throw Error(Cause::bad_option, "the start has " + std::to_string(options.start->size()) + " values for " +
+                                           std::to_string(source.mesh.vertex_count()) + " vertices");
+    if (!options.split_prescribed) return {};
+    return prepared(split_prescribed(source, boundary));
+}
+
+}  // namespace beltrami
