@@ -58,6 +58,8 @@ constexpr int kFinishingSteps = 20;
 constexpr double kRound = 1e-3;
 /// Width of the bracket, as part of K, from which on poles that were thought needless are needed.
 constexpr double kPolesNeeded = 0.01;
+/// Merits that differ by less, as part of them, do not tell which of two bounds is the larger one.
+constexpr double kCloseMerit = 0.01;
 /// Directions of held vertices that turn by less (radians) are kept, and they are followed so often.
 constexpr double kTurned = 0.02;
 constexpr int kMostTurns = 4;
@@ -269,13 +271,18 @@ struct ExtremalSolver::Implementation {
 
     /// Of the map, or of the one before it was evened out: evening makes the bounds, as a rule, a little worse.
     SolutionBounds best_bounds(const Distortion& measured) const {
-        if (before_evening && before_evening->step.merit >= step.merit) {
-            const auto& [earlier_map, earlier_step] = *before_evening;
-            const Distortion earlier = distortion(source.operators, earlier_map);
-            const ReichStrebel integrals = integrals_of(earlier, earlier_step);
-            if (integrals.valid) return bounds_of(earlier_map, earlier_step, earlier, integrals);
-        }
-        return bounds_of(map, step, measured, integrals_of(measured, step));
+        if (!before_evening || before_evening->step.merit < (1 - kCloseMerit) * step.merit)
+            return bounds_of(map, step, measured, integrals_of(measured, step));
+        const auto& [earlier_map, earlier_step] = *before_evening;
+        const Distortion earlier = distortion(source.operators, earlier_map);
+        const ReichStrebel earlier_integrals = integrals_of(earlier, earlier_step);
+        if (earlier_integrals.valid && earlier_step.merit > (1 + kCloseMerit) * step.merit)
+            return bounds_of(earlier_map, earlier_step, earlier, earlier_integrals);
+        const auto lower = [](const ReichStrebel& integrals) { return integrals.valid ? integrals.lower : 1; };
+        const ReichStrebel integrals = integrals_of(measured, step);
+        if (lower(earlier_integrals) >= lower(integrals))
+            return bounds_of(earlier_map, earlier_step, earlier, earlier_integrals);
+        return bounds_of(map, step, measured, integrals);
     }
 
     /// The iteration from where it stands, and what comes after it.
