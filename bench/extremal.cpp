@@ -5,18 +5,25 @@
 // Every measurement runs in a process of its own, so that peak memory is its own. Times are those of the JSON record:
 // harmonic = operators, ordering, analysis, assembly, factorisation and solution, median of three; extremal =
 // everything between the loaded mesh and the result: diagnosis, topology, flattening, iteration, distortion and bounds.
+// A second table is for the real mesh with holes and pins, where the folder BELTRAMI_MESHES has it: harmonic and
+// extremal maps in turn, medians of wall and of processor seconds.
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include <beltrami/beltrami.h>
+#include <beltrami/io/number_lists.h>
 #include <beltrami/linear/symmetric_solver.h>
 #include <beltrami/maps/beltrami_solver.h>
 #include <beltrami/maps/timing.h>
@@ -28,6 +35,11 @@ using namespace beltrami;
 
 double now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// Of all threads.
+double processor_now() {
+    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
 /// The cases: a planar disk sent to three lobes, and a bump in space whose boundary runs unevenly around the disk.
@@ -84,6 +96,46 @@ Measurement in_child(Work&& work) {
     return m;
 }
 
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+}
+
+void measure_pinned(const std::filesystem::path& folder) {
+    constexpr int rounds = 7;
+    const Mesh mesh = read_mesh(folder / "mcqc3d_planar_src.obj").mesh;
+    const IndexedRows pins = read_indexed_rows(folder / "mcqc3d_pins.txt", 1, mesh.vertex_count(), 2, "a pin");
+    BoundaryCondition boundary;
+    for (Eigen::Index i = 0; i < pins.indices.rows(); ++i)
+        boundary.pin(pins.indices(i, 0), {pins.values(i, 0), pins.values(i, 1)});
+    std::vector<double> harmonic, harmonic_processor, extremal, extremal_processor;
+    ExtremalMap result;
+    const Surface before(mesh);
+    for (int round = 0; round < rounds; ++round) {
+        double processor = processor_now();
+        harmonic.push_back(harmonic_seconds(before, boundary));
+        harmonic_processor.push_back((processor_now() - processor) / 3);
+        Mesh copy = mesh;
+        processor = processor_now();
+        const double start = now();
+        const Surface surface(std::move(copy));
+        result = extremal_map(surface, boundary);
+        extremal.push_back(now() - start);
+        extremal_processor.push_back(processor_now() - processor);
+    }
+    const auto row = [](const char* what, double of_harmonic, double of_extremal) {
+        fmt::print("| {} | {:.4f} | {:.3f} | {:.1f} |\n", what, of_harmonic, of_extremal, of_extremal / of_harmonic);
+    };
+    fmt::print(
+        "\nThree holes and pins, {} triangles: k {:.5f}, std {:.4f}, max {:.4f}, gap {:.2f} %, {} flips, {} "
+        "iterations, {} factorisations.\n\n| seconds | harmonic | extremal | ratio |\n| --- | --- | --- | --- |\n",
+        mesh.face_count(), result.k, result.distortion.standard_deviation, result.distortion.max,
+        100 * (result.K / result.K_lower - 1), result.distortion.flipped.size(), result.iterations,
+        result.factorizations);
+    row("wall", median(harmonic), median(extremal));
+    row("processor", median(harmonic_processor), median(extremal_processor));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -124,4 +176,7 @@ int main(int argc, char** argv) {
                        static_cast<double>(extremal.peak_kib) / static_cast<double>(harmonic.peak_kib));
             std::fflush(stdout);
         }
+    const char* folder = std::getenv("BELTRAMI_MESHES");
+    if (folder && std::filesystem::exists(std::filesystem::path(folder) / "mcqc3d_planar_src.obj"))
+        measure_pinned(folder);
 }

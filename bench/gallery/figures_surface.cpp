@@ -69,9 +69,10 @@ Figure figure_10(Output& output) {
     figure.tables.push_back(std::move(table));
     figure.pictures = {std::move(starts), std::move(maps)};
     figure.remarks.push_back(
-        "The starts give the same map as long as their noise is not too wild; from .1, where close to half of all "
+        "The starts give the same map as long as their noise is not too wild. From .1, where close to half of all "
         "faces "
-        "are turned over, what comes out is no map. The harmonic start needs no option and is the best one.");
+        "are turned over, what comes out is no map, and the iteration begins again from the harmonic start, with a "
+        "warning; both runs are counted. The harmonic start needs no option and is the best one.");
     return figure;
 }
 

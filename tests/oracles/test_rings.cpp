@@ -1,6 +1,10 @@
 // Rings: extremal maps in closed form.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include <beltrami/generate/random.h>
+
 #include "support/extremal.h"
 
 namespace beltrami {
@@ -99,6 +103,39 @@ TEST(TurnedRing, LostTurnsAreSaid) {
         EXPECT_EQ(result.K_lower, 1.0) << "no bound of the wanted class";
         EXPECT_NE(result.warnings.at(0).find("lost its turns"), std::string::npos);
     }
+}
+
+TEST(Starts, FoldedBeyondRescueGiveWayToTheHarmonicOne) {
+    const bench::Problem problem = bench::screw(0.12);
+    const Surface surface(problem.mesh);
+    const auto displaced = [&](double by) {
+        Eigen::VectorXcd map = *problem.witness;
+        Random random(10);
+        for (int v = 0; v < map.size(); ++v) {
+            const double x = random.uniform(-by, by), y = random.uniform(-by, by);
+            if (!surface.topology.on_boundary[v]) map[v] += Complex(x, y);
+        }
+        return map;
+    };
+    const ExtremalMap plain = extremal_map(surface, problem.boundary);
+    ExtremalOptions options;
+    options.start = displaced(0.02);
+    const ExtremalMap good = extremal_map(surface, problem.boundary, options);
+    expect_sound(good);
+    EXPECT_EQ(good.warnings, plain.warnings);
+    EXPECT_NEAR(good.k, plain.k, 1e-4);
+
+    options.start = displaced(0.1);
+    const ExtremalMap bad = extremal_map(surface, problem.boundary, options);
+    expect_sound(bad);
+    EXPECT_EQ(bad.termination, Termination::converged);
+    EXPECT_NEAR(bad.K, plain.K, 1e-9);
+    EXPECT_LT((bad.map - plain.map).cwiseAbs().maxCoeff(), 1e-6);
+    EXPECT_GT(bad.iterations, plain.iterations);
+    ASSERT_EQ(bad.warnings.size(), plain.warnings.size() + 1);
+    EXPECT_EQ(std::count_if(bad.warnings.begin(), bad.warnings.end(),
+                            [](const std::string& w) { return w.find("from the start that was given") == 0; }),
+              1);
 }
 
 }  // namespace

@@ -39,6 +39,13 @@ class DifferentialSpace {
     virtual Eigen::VectorXcd combination(const ChartPoints& points, const Eigen::VectorXcd& coefficients) const {
         return generators(points) * of_generators(coefficients);
     }
+    /// Σ_s weights(s, column) φ_j(s) for every function j: size() × #columns.
+    virtual Eigen::MatrixXcd pair(const ChartPoints& points, const Eigen::MatrixXcd& weights) const {
+        return from_generators(generators(points).transpose() * weights);
+    }
+    /// Whether combination() and pair() are as cheap as reading stored values of the generators, and run on all
+    /// threads.
+    virtual bool quick() const { return false; }
     /// A larger space whose first functions are those of this one; null where the mesh resolves no more.
     virtual std::unique_ptr<DifferentialSpace> refined() const = 0;
 

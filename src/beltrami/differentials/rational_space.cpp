@@ -12,8 +12,8 @@ namespace {
 
 constexpr int kFirstDegree = 8, kFirstPower = 4;
 /// A function of which less than this part is new is left out.
-constexpr double kDependent = 1e-5;
-/// Points worked through at a time.
+constexpr double kDependent = 1e-4;
+/// Points worked through at a time where densities are.
 constexpr int kPointsPerChunk = 512;
 
 }  // namespace
@@ -28,54 +28,60 @@ std::unique_ptr<DifferentialSpace> RationalSpace::starting_space(const Singulari
         family.levels = std::max(family.levels, family.curves.back().levels());
     }
     auto space = std::unique_ptr<RationalSpace>(new RationalSpace(std::make_shared<const Family>(std::move(family))));
-    space->raise(std::min(kFirstDegree, largest_degree), std::min(kFirstPower, largest_power));
-    std::vector<Generator> poles;
-    for (const Complex pin : singularities.pins) poles.push_back({pin, 1.0, 1});
-    for (const auto& held : singularities.held) poles.push_back({held.at, 1.0, 1, true, held.residue});
-    space->add(std::move(poles));
+    std::vector<Generator> first =
+        space->raise(std::min(kFirstDegree, largest_degree), std::min(kFirstPower, largest_power));
+    for (const Complex pin : singularities.pins) first.push_back(Pole{pin, 1.0, 1});
+    for (const auto& held : singularities.held) first.push_back({Pole{held.at, 1.0, 1}, held.residue});
+    space->add(first);
     return space;
 }
 
-void RationalSpace::add_corner_poles() {
+std::vector<RationalSpace::Generator> RationalSpace::take_corner_poles() {
     std::vector<Generator> poles;
     for (const auto& corner : family_->singularities.corners)
         for (int j = 0; j < corner_poles; ++j) {
             const double distance =
                 corner.reach * std::exp(-4 * (std::sqrt(corner_poles) - std::sqrt(corner_poles - j)));
             if (distance < corner.finest && j > 0) break;
-            poles.push_back({corner.vertex + distance * corner.outward, distance, 1});
+            poles.push_back(Pole{corner.vertex + distance * corner.outward, distance, 1});
         }
-    add(std::move(poles));
     with_corners_ = true;
+    return poles;
 }
 
-void RationalSpace::add_densities() {
+std::vector<RationalSpace::Generator> RationalSpace::take_densities() {
     std::vector<Generator> more;
     for (std::size_t c = 0; c < family_->curves.size(); ++c) {
         const CurveDensities& curve = family_->curves[c];
         if (levels_ >= curve.levels()) continue;
         for (int j = levels_ > 0 ? curve.size_up_to(levels_ - 1) : 0; j < curve.size_up_to(levels_); ++j)
-            more.push_back({0.0, -1.0, 0, curve.real(j), 1.0, static_cast<int>(c), j});
+            more.push_back({static_cast<int>(c), j, curve.real(j)});
     }
     ++levels_;
-    add(std::move(more));
+    return more;
 }
 
-void RationalSpace::raise(int degree, int power) {
+std::vector<RationalSpace::Generator> RationalSpace::raise(int degree, int power) {
     std::vector<Generator> more;
-    for (int j = degree_ + 1; j <= degree; ++j) more.push_back({0.0, 1.0, -j});
+    for (int j = degree_ + 1; j <= degree; ++j) more.push_back(Pole{0.0, 1.0, -j});
     for (const auto& hole : family_->singularities.holes)
         for (int j = power_ + 1; j <= std::min(power, hole.largest_power); ++j)
-            more.push_back({hole.centre, hole.radius, j});
+            more.push_back(Pole{hole.centre, hole.radius, j});
     degree_ = std::max(degree_, degree);
     power_ = std::max(power_, power);
-    add(std::move(more));
+    return more;
 }
 
-void RationalSpace::add(std::vector<Generator> more) {
+void RationalSpace::add(const std::vector<Generator>& more) {
     if (more.empty()) return;
     const auto old_generators = static_cast<Eigen::Index>(generators_.size()), old_size = transform_.cols();
-    generators_.insert(generators_.end(), more.begin(), more.end());
+    for (const Generator& generator : more) {
+        if (generator.curve < 0) {
+            pole_at_.push_back(static_cast<Eigen::Index>(generators_.size()));
+            poles_.push_back(generator.pole);
+        }
+        generators_.push_back(generator);
+    }
     const bool real = !complex_coefficients();
     const auto generators_count = static_cast<Eigen::Index>(generators_.size());
     Eigen::Index added = 0;
@@ -85,7 +91,8 @@ void RationalSpace::add(std::vector<Generator> more) {
     values = quadrature.weights.cwiseSqrt().cast<Complex>().asDiagonal() * values;
 
     // Coefficients of the new functions, made orthonormal twice (Cholesky QR loses half of the digits each time); a
-    // pivot that vanishes marks a function that depends on those before it.
+    // pivot that vanishes marks a function that depends on those before it. The first time products of the generators
+    // will do: what the earlier functions lose by cancellation in their own products is not looked at.
     Eigen::MatrixXcd transform = Eigen::MatrixXcd::Zero(generators_count, old_size + added);
     if (old_size) transform.topLeftCorner(old_generators, old_size) = transform_;
     for (Eigen::Index j = old_generators, column = old_size; j < generators_count; ++j) {
@@ -95,9 +102,12 @@ void RationalSpace::add(std::vector<Generator> more) {
         transform(j, column++) = unit;
         if (real && !generator.real) transform(j, column++) = Complex(0, 1) * unit;
     }
+    const Eigen::MatrixXcd products = complex_gram_upper(values);
     Eigen::Index size = old_size + added;
     for (int pass = 0; pass < 2; ++pass) {
-        Eigen::MatrixXcd gram = complex_gram_upper(complex_product(values, transform.leftCols(size)));
+        Eigen::MatrixXcd gram =
+            pass == 0 ? Eigen::MatrixXcd(transform.adjoint() * (products.selfadjointView<Eigen::Upper>() * transform))
+                      : complex_gram_upper(complex_product(values, transform.leftCols(size)));
         if (real) gram.imag().setZero();
         // Columns of the inverse factor, one after another: r = gram(0..j, j) against those kept so far.
         Eigen::MatrixXcd kept(generators_count, size);
@@ -123,38 +133,37 @@ void RationalSpace::add(std::vector<Generator> more) {
 }
 
 Eigen::MatrixXcd RationalSpace::generators(const ChartPoints& points) const {
-    Eigen::MatrixXcd values(points.positions.size(), static_cast<Eigen::Index>(generators_.size()));
+    Eigen::MatrixXcd values = pole_values(poles_, points.positions);
+    if (poles_.size() < generators_.size()) values = with_densities(values, points.positions);
+    const Eigen::VectorXcd square = points.derivatives.cwiseProduct(points.derivatives);
     parallel_for(
-        0, static_cast<int>(points.positions.size()),
+        0, static_cast<int>(values.cols()),
+        [&](int first, int last) {
+            for (int g = first; g < last; ++g) values.col(g).array() *= square.array();
+        },
+        1);
+    return values;
+}
+
+/// Values of all generators from those of the poles.
+Eigen::MatrixXcd RationalSpace::with_densities(const Eigen::MatrixXcd& of_poles, const Eigen::VectorXcd& z) const {
+    Eigen::MatrixXcd values(z.size(), static_cast<Eigen::Index>(generators_.size()));
+    for (std::size_t j = 0; j < pole_at_.size(); ++j)
+        values.col(pole_at_[j]) = of_poles.col(static_cast<Eigen::Index>(j));
+    parallel_for(
+        0, static_cast<int>(z.size()),
         [&](int begin, int end) {
             const int count = end - begin;
-            const Eigen::ArrayXcd square = points.derivatives.segment(begin, count).array().square();
-            const Eigen::ArrayXcd z = points.positions.segment(begin, count).array();
-            Eigen::ArrayXcd base(count), power(count);
             Eigen::MatrixXcd weights;  // of the last curve
             int curve = -1;
             for (std::size_t g = 0; g < generators_.size(); ++g) {
                 const Generator& f = generators_[g];
-                if (f.curve >= 0) {
-                    const CurveDensities& densities = family_->curves[f.curve];
-                    if (curve != f.curve) weights = densities.weights(points.positions.segment(begin, count));
-                    curve = f.curve;
-                    values.col(static_cast<Eigen::Index>(g)).segment(begin, count) =
-                        square.matrix().cwiseProduct(weights * densities.densities().col(f.density));
-                    continue;
-                }
-                // Powers of one base follow each other, so each is one product.
-                if (!follows(g)) {
-                    if (f.power > 0)
-                        base = f.scale * (z - f.centre).conjugate() / (z - f.centre).abs2();
-                    else
-                        base = (z - f.centre) / f.scale;
-                    power = square;
-                    for (int i = 0; i < std::abs(f.power); ++i) power *= base;
-                } else {
-                    power *= base;
-                }
-                values.col(static_cast<Eigen::Index>(g)).segment(begin, count) = power.matrix();
+                if (f.curve < 0) continue;
+                const CurveDensities& densities = family_->curves[f.curve];
+                if (curve != f.curve) weights = densities.weights(z.segment(begin, count));
+                curve = f.curve;
+                values.col(static_cast<Eigen::Index>(g)).segment(begin, count) =
+                    weights * densities.densities().col(f.density);
             }
         },
         kPointsPerChunk);
@@ -163,6 +172,7 @@ Eigen::MatrixXcd RationalSpace::generators(const ChartPoints& points) const {
 
 Eigen::VectorXcd RationalSpace::combination(const ChartPoints& points, const Eigen::VectorXcd& coefficients) const {
     const Eigen::VectorXcd c = of_generators(coefficients);
+    Eigen::VectorXcd phi = pole_combination(poles_, points.positions, c(pole_at_));
     std::vector<Eigen::VectorXcd> jumps;  // at the points of the curves; empty before there are any
     for (std::size_t g = 0; g < generators_.size(); ++g) {
         const Generator& f = generators_[g];
@@ -171,71 +181,36 @@ Eigen::VectorXcd RationalSpace::combination(const ChartPoints& points, const Eig
             jumps.emplace_back(Eigen::VectorXcd::Zero(family_->curves[i].densities().rows()));
         jumps[f.curve] += c[static_cast<Eigen::Index>(g)] * family_->curves[f.curve].densities().col(f.density);
     }
-    Eigen::VectorXcd phi(points.positions.size());
-    parallel_for(
-        0, static_cast<int>(points.positions.size()),
-        [&](int begin, int end) {
-            using Array = Eigen::ArrayXd;
-            const int count = end - begin;
-            const Array x = points.positions.segment(begin, count).real(),
-                        y = points.positions.segment(begin, count).imag();
-            Array re = Array::Zero(count), im = Array::Zero(count);
-            Array base_re(count), base_im(count), power_re(count), power_im(count), size(count), next(count);
-            const auto times_base = [&] {
-                next = power_re * base_re - power_im * base_im;
-                power_im = power_re * base_im + power_im * base_re;
-                power_re = next;
-            };
-            for (std::size_t g = 0; g < generators_.size(); ++g) {
-                const Generator& f = generators_[g];
-                if (f.curve >= 0) continue;
-                if (!follows(g)) {
-                    base_re = x - f.centre.real();
-                    base_im = y - f.centre.imag();
-                    if (f.power > 0) {
-                        size = f.scale / (base_re.square() + base_im.square());
-                        base_re *= size;
-                        base_im *= -size;
-                    } else {
-                        base_re /= f.scale;
-                        base_im /= f.scale;
-                    }
-                    power_re.setOnes();
-                    power_im.setZero();
-                    for (int i = 0; i < std::abs(f.power); ++i) times_base();
-                } else {
-                    times_base();
-                }
-                const Complex a = c[static_cast<Eigen::Index>(g)];
-                re += a.real() * power_re - a.imag() * power_im;
-                im += a.real() * power_im + a.imag() * power_re;
-            }
-            for (int i = 0; i < count; ++i) phi[begin + i] = Complex(re[i], im[i]);
-            for (std::size_t j = 0; j < jumps.size(); ++j)
-                phi.segment(begin, count) +=
-                    family_->curves[j].integral(points.positions.segment(begin, count), jumps[j]);
-            for (int i = 0; i < count; ++i)
-                phi[begin + i] *= points.derivatives[begin + i] * points.derivatives[begin + i];
-        },
-        kPointsPerChunk);
-    return phi;
+    if (!jumps.empty())
+        parallel_for(
+            0, static_cast<int>(phi.size()),
+            [&](int begin, int end) {
+                const int count = end - begin;
+                for (std::size_t j = 0; j < jumps.size(); ++j)
+                    phi.segment(begin, count) +=
+                        family_->curves[j].integral(points.positions.segment(begin, count), jumps[j]);
+            },
+            kPointsPerChunk);
+    return phi.cwiseProduct(points.derivatives.cwiseProduct(points.derivatives));
 }
 
-/// Whether a generator is the next power of the base of the one before.
-bool RationalSpace::follows(std::size_t g) const {
-    return g > 0 && generators_[g - 1].centre == generators_[g].centre &&
-           generators_[g - 1].scale == generators_[g].scale &&
-           std::abs(generators_[g - 1].power) == std::abs(generators_[g].power) - 1;
+Eigen::MatrixXcd RationalSpace::pair(const ChartPoints& points, const Eigen::MatrixXcd& weights) const {
+    if (poles_.size() < generators_.size()) return DifferentialSpace::pair(points, weights);
+    const Eigen::VectorXcd square = points.derivatives.cwiseProduct(points.derivatives);
+    return from_generators(pole_pairing(poles_, points.positions, square.asDiagonal() * weights));
 }
 
 std::unique_ptr<DifferentialSpace> RationalSpace::refined() const {
     const bool raises = degree_ < family_->largest_degree || power_ < family_->largest_power;
     if (!raises && !preliminary() && levels_ >= family_->levels) return nullptr;
     auto larger = std::unique_ptr<RationalSpace>(new RationalSpace(*this));
-    if (preliminary()) larger->add_corner_poles();
-    if (levels_ < family_->levels) larger->add_densities();
-    larger->raise(std::min(degree_ + std::max(4, degree_ / 2), family_->largest_degree),
-                  std::min(power_ + std::max(2, power_ / 2), family_->largest_power));
+    std::vector<Generator> more;
+    const auto take = [&](const std::vector<Generator>& next) { more.insert(more.end(), next.begin(), next.end()); };
+    if (preliminary()) take(larger->take_corner_poles());
+    if (levels_ < family_->levels) take(larger->take_densities());
+    take(larger->raise(std::min(degree_ + std::max(4, degree_ / 2), family_->largest_degree),
+                       std::min(power_ + std::max(2, power_ / 2), family_->largest_power)));
+    larger->add(more);
     return larger;
 }
 

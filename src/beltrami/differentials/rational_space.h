@@ -4,6 +4,7 @@
 
 #include <beltrami/differentials/curve_densities.h>
 #include <beltrami/differentials/differential_space.h>
+#include <beltrami/differentials/pole_sums.h>
 #include <beltrami/differentials/singularities.h>
 
 namespace beltrami {
@@ -37,17 +38,20 @@ class RationalSpace final : public DifferentialSpace {
     Eigen::MatrixXcd generators(const ChartPoints& points) const override;
     const Eigen::MatrixXcd* transform() const override { return &transform_; }
     Eigen::VectorXcd combination(const ChartPoints& points, const Eigen::VectorXcd& coefficients) const override;
+    Eigen::MatrixXcd pair(const ChartPoints& points, const Eigen::MatrixXcd& weights) const override;
+    bool quick() const override { return family_->curves.empty() && family_->singularities.held.empty(); }
     std::unique_ptr<DifferentialSpace> refined() const override;
     bool preliminary() const override {
         return !with_corners_ && !(family_->singularities.corners.empty() && family_->curves.empty());
     }
 
   private:
-    /// scale^power/(z − centre)^power; power < 0: the polynomial ((z − centre)/scale)^(−power). Or a Cauchy integral.
+    /// A pole or a Cauchy integral.
     struct Generator {
-        Complex centre;
-        double scale;
-        int power;
+        Generator(const Pole& p) : pole(p) {}
+        Generator(const Pole& p, Complex only) : pole(p), real(true), factor(only) {}
+        Generator(int of_curve, int j, bool is_real) : real(is_real), curve(of_curve), density(j) {}
+        Pole pole{0.0, 1.0, 0};
         bool real = false;  ///< factor times this admits real coefficients only
         Complex factor = 1.0;
         int curve = -1, density = 0;  ///< of Family::curves, if it is a Cauchy integral
@@ -62,19 +66,22 @@ class RationalSpace final : public DifferentialSpace {
 
     explicit RationalSpace(std::shared_ptr<const Family> family) : family_(std::move(family)) {}
     /// Appends functions and orthonormalises them against those that are there.
-    void add(std::vector<Generator> more);
-    bool follows(std::size_t generator) const;
-    void add_corner_poles();
-    /// The next level of the curves' densities.
-    void add_densities();
-    /// Polynomials up to a degree, powers at the holes.
-    void raise(int degree, int power);
+    void add(const std::vector<Generator>& more);
+    /// The poles at the corners, which count as taken.
+    std::vector<Generator> take_corner_poles();
+    /// The next level of the curves' densities, which counts as taken.
+    std::vector<Generator> take_densities();
+    /// Polynomials up to a degree, powers at the holes: those that are new, which count as taken.
+    std::vector<Generator> raise(int degree, int power);
+    Eigen::MatrixXcd with_densities(const Eigen::MatrixXcd& of_poles, const Eigen::VectorXcd& z) const;
 
     std::shared_ptr<const Family> family_;
     int degree_ = -1, power_ = 0, levels_ = 0;
     bool with_corners_ = false;
     std::vector<Generator> generators_;
-    Eigen::MatrixXcd transform_;  ///< columns of earlier functions stay as they are
+    std::vector<Pole> poles_;            ///< those of the generators that are poles, in their order
+    std::vector<Eigen::Index> pole_at_;  ///< the generators that these are
+    Eigen::MatrixXcd transform_;         ///< columns of earlier functions stay as they are
 };
 
 }  // namespace beltrami

@@ -38,7 +38,7 @@ void take_means(const SamplePoints& means, const Eigen::MatrixXcd& at_points, Ei
 }
 
 void SampledSpace::set_means(SamplePoints means) {
-    if (mode_ == Mode::dense) means_ = std::move(means);
+    if (!large_) means_ = std::move(means);
 }
 
 Eigen::VectorXcd SampledSpace::combination_at_means(const Eigen::VectorXcd& coefficients) const {
@@ -55,11 +55,11 @@ SampledSpace::SampledSpace(const Chart& chart, const Singularities& singularitie
     if (samples <= kMostDenseSamples) return;
     grid_ = chart_grid(chart, phase, CellSize(kCellSize, singularities, kCellSlope, kHoleSlope, kSmallestCell));
     if (kNodes * grid_.cell_count() > samples / 2) {
-        mode_ = Mode::afresh;
+        large_ = Mode::afresh;
         grid_ = {{}, {0}, {}, {}};
         return;
     }
-    mode_ = Mode::interpolated;
+    large_ = Mode::interpolated;
     // Each cell about the mean of its samples, which a cell at the rim may have on one side only.
     centres_ = Eigen::VectorXcd::Zero(grid_.cell_count());
     for (int c = 0; c < grid_.cell_count(); ++c) {
@@ -70,9 +70,10 @@ SampledSpace::SampledSpace(const Chart& chart, const Singularities& singularitie
 
 void SampledSpace::set(const DifferentialSpace& space) {
     space_ = &space;
-    current_ = space.tabulated() ? Mode::dense : mode_;
-    if (current_ == Mode::afresh) return;
-    if (current_ == Mode::dense) {
+    mode_ = space.tabulated() ? Mode::dense : large_.value_or(space.quick() ? Mode::afresh : Mode::dense);
+    values_ = {};
+    if (mode_ == Mode::afresh) return;
+    if (mode_ == Mode::dense) {
         Eigen::MatrixXcd values =
             space.tabulated() ? *space.tabulated() : space.generators({chart_.positions, chart_.derivatives});
         if (values.rows() != static_cast<Eigen::Index>(chart_.excluded.size()))
@@ -101,16 +102,19 @@ ChartPoints SampledSpace::chunk(int first, int last) const {
 }
 
 Eigen::VectorXcd SampledSpace::combination(const Eigen::VectorXcd& coefficients) const {
-    const Eigen::VectorXcd of_generators = space_->of_generators(coefficients);
-    if (current_ == Mode::interpolated) return interpolate(values_.times(of_generators));
-    if (current_ == Mode::dense) return values_.times(of_generators);
+    if (mode_ == Mode::interpolated) return interpolate(values_.times(space_->of_generators(coefficients)));
+    if (mode_ == Mode::dense) return values_.times(space_->of_generators(coefficients));
     const int samples = static_cast<int>(chart_.positions.size());
     Eigen::VectorXcd phi(samples);
-    parallel_for(0, samples, [&](int first, int last) {
-        phi.segment(first, last - first) = space_->combination(chunk(first, last), coefficients);
-        for (int s = first; s < last; ++s)
-            if (chart_.excluded[s]) phi[s] = 0;
-    });
+    if (space_->quick()) {
+        phi = space_->combination({chart_.positions, chart_.derivatives}, coefficients);
+    } else {
+        parallel_for(0, samples, [&](int first, int last) {
+            phi.segment(first, last - first) = space_->combination(chunk(first, last), coefficients);
+        });
+    }
+    for (int s = 0; s < samples; ++s)
+        if (chart_.excluded[s]) phi[s] = 0;
     return phi;
 }
 
@@ -139,20 +143,17 @@ Eigen::VectorXcd SampledSpace::interpolate(const Eigen::VectorXcd& at_nodes) con
 }
 
 Eigen::MatrixXcd SampledSpace::pair(const Eigen::MatrixXcd& weights) const {
-    if (current_ == Mode::interpolated) return space_->from_generators(values_.transposed_times(gather(weights)));
-    if (current_ == Mode::dense) return space_->from_generators(values_.transposed_times(weights));
+    if (mode_ == Mode::interpolated) return space_->from_generators(values_.transposed_times(gather(weights)));
+    if (mode_ == Mode::dense) return space_->from_generators(values_.transposed_times(weights));
+    Eigen::MatrixXcd included = weights;
     const int samples = static_cast<int>(chart_.positions.size());
-    const int generators =
-        static_cast<int>(space_->transform() ? space_->transform()->rows() : Eigen::Index{space_->size()});
-    const Eigen::MatrixXcd zero = Eigen::MatrixXcd::Zero(generators, weights.cols());
-    return space_->from_generators(
-        parallel_sum<Eigen::MatrixXcd>(samples, zero, [&](int first, int last) -> Eigen::MatrixXcd {
-            const int count = last - first;
-            Eigen::MatrixXcd part = weights.middleRows(first, count);
-            for (int s = first; s < last; ++s)
-                if (chart_.excluded[s]) part.row(s - first).setZero();
-            return space_->generators(chunk(first, last)).transpose() * part;
-        }));
+    for (int s = 0; s < samples; ++s)
+        if (chart_.excluded[s]) included.row(s).setZero();
+    if (space_->quick()) return space_->pair({chart_.positions, chart_.derivatives}, included);
+    const Eigen::MatrixXcd zero = Eigen::MatrixXcd::Zero(space_->size(), weights.cols());
+    return parallel_sum<Eigen::MatrixXcd>(samples, zero, [&](int first, int last) -> Eigen::MatrixXcd {
+        return space_->pair(chunk(first, last), included.middleRows(first, last - first));
+    });
 }
 
 /// What weights at the samples are as weights at the nodes: the adjoint of interpolate().

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include <beltrami/differentials/chart_grid.h>
 #include <beltrami/differentials/differential_space.h>
 #include <beltrami/differentials/split_matrix.h>
@@ -21,11 +23,11 @@ void take_means(const SamplePoints& means, const Eigen::MatrixXcd& at_points, Ei
 /// A space of differentials on the samples of a mesh: values of a combination at every sample, and pairings of every
 /// basis function with weights at the samples.
 ///
-/// On small meshes the values of all functions at all samples are kept. On large ones functions are evaluated at four
-/// nodes per cell of a grid over the canonical domain only: inside a cell a holomorphic function is its cubic
-/// interpolant through four points of a circle. That costs a few operations a sample instead of a few per function and
-/// sample. Where singularities would ask for nearly as many cells as samples, functions are evaluated afresh each time.
-/// A tabulated space is its values at all samples, whatever their number.
+/// On small meshes the values of all functions at all samples are kept, unless the space computes them as quickly. On
+/// large ones functions are evaluated at four nodes per cell of a grid over the canonical domain only: inside a cell a
+/// holomorphic function is its cubic interpolant through four points of a circle. That costs a few operations a sample
+/// instead of a few per function and sample. Where singularities would ask for nearly as many cells as samples,
+/// functions are evaluated afresh each time. A tabulated space is its values at all samples, whatever their number.
 class SampledSpace {
   public:
     /// @param chart kept by reference
@@ -59,8 +61,8 @@ class SampledSpace {
     const Chart& chart_;
     SamplePoints means_;
     const DifferentialSpace* space_ = nullptr;
-    Mode mode_ = Mode::dense;     ///< of spaces that can be evaluated anywhere
-    Mode current_ = Mode::dense;  ///< of the current space
+    std::optional<Mode> large_;  ///< on a large mesh, of every space that can be evaluated anywhere
+    Mode mode_ = Mode::dense;    ///< of the current space
     ChartGrid grid_{{}, {0}, {}, {}};
     Eigen::VectorXcd centres_;  ///< #cells
     SplitMatrix at_means_;      ///< of the generators: #points of the means × g

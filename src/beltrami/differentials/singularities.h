@@ -47,6 +47,9 @@ struct Singularities {
     std::vector<HeldPoint> held;
 
     bool empty() const { return holes.empty() && corners.empty() && pins.empty() && curves.empty() && held.empty(); }
+    bool only_corners() const {
+        return holes.empty() && pins.empty() && curves.empty() && held.empty() && !corners.empty();
+    }
     /// Whether only real combinations of some functions are admissible.
     bool real() const {
         for (const Curve& curve : curves)

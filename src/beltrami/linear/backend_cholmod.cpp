@@ -11,6 +11,7 @@
 #include <beltrami/linear/dense.h>
 #include <beltrami/linear/supernodal_factor.h>
 #include <beltrami/linear/symmetric_solver.h>
+#include <beltrami/linear/vector_gram.h>
 #include <beltrami/mesh/error.h>
 
 extern "C" void dsyrk_(const char* uplo, const char* trans, const int* n, const int* k, const double* alpha,
@@ -29,12 +30,34 @@ namespace detail {
 void use_one_blas_thread();
 }
 
+namespace {
+
+/// Held while BLAS works: a serial OpenBLAS built without locks, Debian's for one, hands the same packing buffers to
+/// every thread that calls it, and two calls at once spoil each other's products now and then.
+class BlasLock {
+  public:
+    explicit BlasLock(bool needed = true) : lock_(mutex(), std::defer_lock) {
+        if (needed) lock_.lock();
+    }
+
+  private:
+    static std::mutex& mutex() {
+        static std::mutex only;
+        return only;
+    }
+    std::unique_lock<std::mutex> lock_;
+};
+
+}  // namespace
+
 Eigen::MatrixXd gram_lower(const Eigen::Ref<const Eigen::MatrixXd>& A) {
+    if (detail::has_vector_gram()) return detail::vector_gram(A);
     const int n = static_cast<int>(A.cols()), k = static_cast<int>(A.rows()),
               stride = static_cast<int>(A.outerStride());
     Eigen::MatrixXd result = Eigen::MatrixXd::Zero(n, n);
     if (n == 0 || k == 0) return result;
     detail::use_one_blas_thread();
+    const BlasLock lock;
     const double one = 1, zero = 0;
     dsyrk_("L", "T", &n, &k, &one, A.data(), &stride, &zero, result.data(), &n);
     return result;
@@ -45,6 +68,7 @@ Eigen::MatrixXcd complex_product(const Eigen::MatrixXcd& A, const Eigen::MatrixX
     Eigen::MatrixXcd result = Eigen::MatrixXcd::Zero(m, n);
     if (m == 0 || n == 0 || k == 0) return result;
     detail::use_one_blas_thread();
+    const BlasLock lock;
     const std::complex<double> one = 1, zero = 0;
     zgemm_("N", "N", &m, &n, &k, &one, A.data(), &m, B.data(), &k, &zero, result.data(), &m);
     return result;
@@ -55,6 +79,7 @@ Eigen::MatrixXcd complex_gram_upper(const Eigen::MatrixXcd& A) {
     Eigen::MatrixXcd result = Eigen::MatrixXcd::Zero(n, n);
     if (n == 0 || k == 0) return result;
     detail::use_one_blas_thread();
+    const BlasLock lock;
     const double one = 1, zero = 0;
     zherk_("U", "C", &n, &k, &one, A.data(), &k, &zero, result.data(), &n);
     return result;
@@ -139,6 +164,7 @@ class CholmodBackend final : public CholeskyBackend {
 
     bool factorize(const Matrix& lower) override {
         const SerialOpenMp serial;
+        const BlasLock lock(factor_->is_super);
         rough_ = Rough::not_made;
         cholmod_sparse view = view_of(lower);
         const int done = cholmod_factorize(&view, factor_, &common_);
@@ -150,6 +176,7 @@ class CholmodBackend final : public CholeskyBackend {
 
     void solve(const Eigen::MatrixXd& rhs, Eigen::MatrixXd& solution) override {
         const SerialOpenMp serial;
+        const BlasLock lock(factor_->is_super);
         cholmod_dense b{};
         b.nrow = b.d = static_cast<std::size_t>(rhs.rows());
         b.ncol = static_cast<std::size_t>(rhs.cols());

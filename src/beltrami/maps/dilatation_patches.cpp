@@ -27,7 +27,7 @@ constexpr double kSettled = 1e-4;
 constexpr int kExpectedFactorizations = 1;
 
 double gap(const SpreadSample& s, double k) {
-    return std::abs(std::hypot(s.q_re, s.q_im) / std::hypot(s.p_re, s.p_im) - k);
+    return std::abs(std::sqrt((s.q_re * s.q_re + s.q_im * s.q_im) / (s.p_re * s.p_re + s.p_im * s.p_im)) - k);
 }
 
 /// The samples around some vertices, with a numbering of their own, in which only those vertices are free.
@@ -115,7 +115,7 @@ class Patch {
         Score result;
         for (const SpreadSample& s : spread_->samples()) {
             result.gap = std::max(result.gap, gap(s, spread_->k()));
-            result.flipped += std::hypot(s.p_re, s.p_im) <= std::hypot(s.q_re, s.q_im);
+            result.flipped += s.p_re * s.p_re + s.p_im * s.p_im <= s.q_re * s.q_re + s.q_im * s.q_im;
         }
         return result;
     }

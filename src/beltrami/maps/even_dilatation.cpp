@@ -13,7 +13,8 @@ namespace beltrami {
 
 namespace {
 
-/// Sweeps, then perhaps new φ and k, then perhaps a Gauss-Newton step.
+/// Sweeps, then perhaps new φ and k, then perhaps a Gauss-Newton step. φ and k settle with the second step; what they
+/// would still gain does not repay the c-steps.
 struct Stage {
     int sweeps;
     double outlier_penalty;
@@ -21,8 +22,9 @@ struct Stage {
     double damping;  ///< of the step; 0: none
 };
 /// The damping falls as φ and k settle; the penalty on outliers rises.
-constexpr Stage kStages[] = {{3, 30, true, 0.03}, {1, 100, true, 0.01}, {1, 100, true, 0.003}, {2, 200, false, 0.003}};
-constexpr Stage kLastStage{6, 400, false, 0};
+constexpr Stage kStages[] = {
+    {1, 30, false, 0.03}, {1, 100, true, 0.01}, {1, 100, false, 0.003}, {1, 200, false, 0.003}};
+constexpr Stage kLastStage{4, 400, false, 0};
 /// A stage in which E moves by less than this part of it is followed by the last one.
 constexpr double kSettled = 0.02;
 /// Rings around outliers, round by round.

@@ -44,7 +44,7 @@ struct EvenDilatation {
 /// @param start    #V, folded or not
 /// @param k        0 ≤ k < 1
 /// @param phi      #S quadratic differential in the samples' frames, of any scale; 0 where nothing is known
-/// @param coefficient_update called up to three times between stages; may be empty
+/// @param coefficient_update called up to once between stages; may be empty
 /// @throw Error bad_option; bad_boundary if start is not finite; cancelled
 EvenDilatation even_dilatation(const Surface& source, const std::vector<Freedom>& freedoms,
                                const Eigen::VectorXcd& start, double k, const Eigen::VectorXcd& phi,

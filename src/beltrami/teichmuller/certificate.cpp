@@ -43,7 +43,7 @@ ReichStrebel reich_strebel(const Surface& source, const Chart& chart, const Diff
     Eigen::VectorXd abs_phi = Eigen::VectorXd::Zero(samples);  // ∫|φ|
     const double unresolved = visit_quadrature(source, chart, space, coefficients, [&](const FacePoint& p) {
         phi[p.sample] += p.weight * p.phi;
-        abs_phi[p.sample] += p.weight * std::abs(p.phi);
+        abs_phi[p.sample] += p.weight * std::sqrt(std::norm(p.phi));
     });
     double total = 0, norm = 0, pairing = 0;
     for (int s = 0; s < samples; ++s) {

@@ -16,6 +16,8 @@ namespace {
 constexpr double kTwoPi = 2 * std::numbers::pi;
 /// Below so many samples the coarse problem would cost as much as it saves.
 constexpr int kWorthFrom = 6'000;
+/// The bracket of a smooth problem, as part of K, times the number of triangles: less than this.
+constexpr double kTightPerTriangle = 15;
 /// Triangles of the coarse mesh: a part of the samples, within limits.
 constexpr int kCoarsePart = 7, kFewestTriangles = 1'200, kMostTriangles = 5'000;
 
@@ -53,8 +55,8 @@ CircleValues circle_values(const Surface& source, const BoundaryCondition& bound
 
 }  // namespace
 
-HamiltonState coarse_start(const Surface& source, const BoundaryCondition& boundary, const Chart& chart, double phase,
-                           const ExtremalOptions& options) {
+CoarseStart coarse_start(const Surface& source, const BoundaryCondition& boundary, const Chart& chart, double phase,
+                         const ExtremalOptions& options) {
     if (source.operators.sample_count() < kWorthFrom) return {};
     const CircleValues values = circle_values(source, boundary, chart);
     if (values.angle.empty()) return {};
@@ -74,18 +76,21 @@ HamiltonState coarse_start(const Surface& source, const BoundaryCondition& bound
         coarse.pin(v, values.at(turn));
     }
     ExtremalProblem problem(model, coarse, 1);
-    problem.set_chart(round_disk_chart(model, problem.solver()), {}, options.cluster_count);
+    problem.set_chart(round_disk_chart(model, problem.solver()));
+    problem.set_singularities({}, options.cluster_count);
     HamiltonIteration::Options coarse_options = iteration_options(options);
     coarse_options.progress = {};
     coarse_options.grow_last = false;
     problem.map_step().set_near(false);
     HamiltonIteration iteration(model, problem.map_step(), problem.coefficient_step(), coarse_options);
-    HamiltonState state;
+    CoarseStart result;
     // The degrees that the fine mesh resolves: on the coarse one the highest are rough, which is good enough for a
     // start.
     const int largest_degree = PolynomialSpace::largest_degree(source.operators.sample_count());
-    iteration.run(state, problem.harmonic(), problem.starting_space(largest_degree));
-    return state;
+    iteration.run(result.state, problem.harmonic(), problem.starting_space(largest_degree));
+    result.tight =
+        iteration.converged() && bracket(iteration.last_step()) * model.mesh.face_count() < kTightPerTriangle;
+    return result;
 }
 
 }  // namespace beltrami

@@ -5,10 +5,17 @@
 
 namespace beltrami {
 
-/// A start for the iteration on a large mesh: the same problem solved on a coarse mesh of the canonical domain. φ and k
-/// do not depend on the mesh, so they carry over as they are, and the fine mesh sees few factorisations.
-/// @return no space if the mesh is small, or its boundary does not run monotonically around the canonical disk
-HamiltonState coarse_start(const Surface& source, const BoundaryCondition& boundary, const Chart& chart, double phase,
-                           const ExtremalOptions& options);
+struct CoarseStart {
+    HamiltonState state;  ///< without a space if there is none
+    /// It has settled with a bracket of K as narrow as that of a smooth problem on such a mesh.
+    bool tight = false;
+};
+
+/// A start for the iteration on a large mesh: the same problem solved on a coarse mesh of the canonical domain, by
+/// polynomials. φ and k do not depend on the mesh, so they carry over as they are, and the fine mesh sees few
+/// factorisations.
+/// @return none if the mesh is small, or its boundary does not run monotonically around the canonical disk
+CoarseStart coarse_start(const Surface& source, const BoundaryCondition& boundary, const Chart& chart, double phase,
+                         const ExtremalOptions& options);
 
 }  // namespace beltrami

@@ -17,7 +17,7 @@ constexpr double kClip = 0.95;
 constexpr double kRounding = 0.4;
 /// Where curves are, Newton's method needs the Hessian of what it minimises: so many clusters, at least.
 constexpr int kClustersWithCurves = 12000;
-/// Without a start, Newton's method begins with these values of δ.
+/// Without a start, Newton's method begins with these values of δ, on the clusters.
 constexpr std::array kColdRoundings{0.3, 0.1, 0.03};
 /// … and ends each of them at steps of this length.
 constexpr double kColdStep = 0.05;
@@ -92,11 +92,20 @@ Eigen::VectorXd CoefficientStep::at_points(const Eigen::VectorXd& of_samples) co
 
 void CoefficientStep::set_space(const DifferentialSpace& space) {
     sampled_.set(space);
+    last_coefficients_.resize(0);
     problem_.basis = space.tabulated()
                          ? means_over_clusters(*space.tabulated(), clusters_, chart_)
                          : space.evaluate({quadrature_.points, Eigen::VectorXcd::Ones(quadrature_.points.size())});
     if (space.tabulated() && space.transform()) problem_.basis = complex_product(problem_.basis, *space.transform());
     problem_.complex_coefficients = space.complex_coefficients();
+}
+
+const Eigen::VectorXcd& CoefficientStep::values(const Eigen::VectorXcd& coefficients) {
+    if (coefficients.size() != last_coefficients_.size() || coefficients != last_coefficients_) {
+        last_values_ = sampled_.combination(coefficients);
+        last_coefficients_ = coefficients;
+    }
+    return last_values_;
 }
 
 Eigen::VectorXcd CoefficientStep::coefficient(double k, const Eigen::VectorXcd& phi) const {
@@ -126,13 +135,20 @@ namespace {
 class SampleNorm final : public DualNorm {
   public:
     /// @param weights A a of every point, 0 where the chart excludes the sample
-    SampleNorm(const SampledSpace& space, const Chart& chart, const Eigen::VectorXd& weights)
-        : space_(space), chart_(chart), weights_(weights), samples_(static_cast<int>(chart.excluded.size())) {}
+    /// @param known, values coefficients of which the values at the samples are known
+    SampleNorm(const SampledSpace& space, const Chart& chart, const Eigen::VectorXd& weights,
+               const Eigen::VectorXcd& known, const Eigen::VectorXcd& values)
+        : space_(space),
+          chart_(chart),
+          weights_(weights),
+          known_(known),
+          values_(values),
+          samples_(static_cast<int>(chart.excluded.size())) {}
     Eigen::VectorXcd values(const Eigen::VectorXcd& c) const override {
         const Eigen::Index points = weights_.size() - samples_;
-        if (points == 0) return space_.combination(c);
+        if (points == 0) return at_samples(c);
         Eigen::VectorXcd all(weights_.size());
-        all.head(samples_) = space_.combination(c);
+        all.head(samples_) = at_samples(c);
         all.tail(points) = space_.combination_at_means(c);
         return all;
     }
@@ -157,6 +173,13 @@ class SampleNorm final : public DualNorm {
     }
 
   private:
+    Eigen::VectorXcd at_samples(const Eigen::VectorXcd& c) const {
+        if (c.size() == known_.size() && c.size() > 0) {
+            const double factor = c.norm() / known_.norm();
+            if ((c - factor * known_).norm() < 1e-14 * c.norm()) return factor * values_;
+        }
+        return space_.combination(c);
+    }
     double square(Complex phi, int s, double delta) const {
         const Complex derivative =
             s < samples_ ? chart_.derivatives[s] : space_.means().points.derivatives[s - samples_];
@@ -166,6 +189,7 @@ class SampleNorm final : public DualNorm {
     const SampledSpace& space_;
     const Chart& chart_;
     const Eigen::VectorXd& weights_;
+    const Eigen::VectorXcd &known_, &values_;
     int samples_;
 };
 
@@ -190,16 +214,24 @@ CoefficientStep::Result CoefficientStep::solve(const Eigen::VectorXcd& mu, const
     for (std::size_t q = 0; q < parts_.size(); ++q)
         problem_.weights[static_cast<Eigen::Index>(q)] = parts_[q].part * cluster_weight[parts_[q].cluster];
     problem_.pairing = sampled_.pair(pairing_weight);
-    const SampleNorm norm(sampled_, chart_, norm_weight);
+    const SampleNorm norm(sampled_, chart_, norm_weight, last_coefficients_, last_values_);
     Eigen::VectorXcd at = start;
+    DualOptions cold;
+    cold.step = kColdStep;
     // New densities are as far from what they have to be as all functions are without a start.
     if (at.size() == 0 || (soft_ && at.size() < problem_.basis.cols()))
         for (const double rounding : kColdRoundings) {
             problem_.rounding = rounding;
-            at = solve_dual(problem_, at, {.step = kColdStep, .norm = &norm}).coefficients;
+            at = solve_dual(problem_, at, cold).coefficients;
         }
     problem_.rounding = std::max(least_rounding_, kRounding * edge_);
-    const DualSolution dual = solve_dual(problem_, at, {.max_steps = newton_steps, .step = step, .norm = &norm});
+    DualOptions options;
+    options.max_steps = newton_steps;
+    options.step = step;
+    options.norm = &norm;
+    if (start.size() > 0) options.reach = moved_;
+    const DualSolution dual = solve_dual(problem_, at, options);
+    moved_ = dual.moved;
 
     Result result;
     result.converged = dual.converged;
@@ -210,13 +242,15 @@ CoefficientStep::Result CoefficientStep::solve(const Eigen::VectorXcd& mu, const
     result.phi = phi.head(samples);
     const double size = norm.norm(phi, 0);
     if (!(size > 0)) return result;
+    last_coefficients_ = result.direction;
+    last_values_ = result.phi;
     const double pairing = dual.pairing / length;
     result.k = dilatation_of_pairing(2 * pairing / size);
     const Eigen::VectorXd areas =
         at_points(Eigen::Map<const Eigen::VectorXd>(source_.operators.weights.data(), samples));
     double plain = 0;
     for (Eigen::Index i = 0; i < phi.size(); ++i)
-        if (norm_weight[i] > 0) plain += areas[i] * std::abs(phi[i]);
+        if (norm_weight[i] > 0) plain += areas[i] * std::sqrt(std::norm(phi[i]));
     result.merit = plain / (size - 2 * pairing);
     return result;
 }

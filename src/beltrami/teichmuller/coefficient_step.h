@@ -41,7 +41,7 @@ class CoefficientStep {
     void set_least_rounding(double part) { least_rounding_ = part; }
 
     /// φ of coefficients (#S).
-    Eigen::VectorXcd values(const Eigen::VectorXcd& coefficients) const { return sampled_.combination(coefficients); }
+    const Eigen::VectorXcd& values(const Eigen::VectorXcd& coefficients);
 
     /// ν of the f-step: k conj(φ)/|φ|. Where curves are, k conj(φ)/√(|φ|² + δ²) with the rounding δ of the c-step:
     /// there φ may all but vanish on one side, where less than k will do, and what is left of it says how much less.
@@ -65,10 +65,12 @@ class CoefficientStep {
     const Surface& source_;
     const Chart& chart_;
     SampledSpace sampled_;
+    Eigen::VectorXcd last_coefficients_, last_values_;  ///< of values()
     SampleClusters clusters_;
     QuadraturePoints quadrature_;
     std::vector<Part> parts_;  ///< for which those points stand
     DualProblem problem_;
+    Eigen::VectorXd moved_;  ///< of φ at the clusters in the last step
     double least_rounding_ = 0;
     bool soft_ = false;  ///< see coefficient()
     double edge_ = 0;    ///< of the mean sample in the canonical domain

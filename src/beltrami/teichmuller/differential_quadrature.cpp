@@ -181,7 +181,7 @@ double visit_quadrature(const Surface& source, const Chart& chart, const Differe
         if (depth <= options.least_depth) {
             total = 0;
             for (const FacePoint& p : points)
-                if (std::isfinite(std::norm(p.phi))) total += p.weight * std::abs(p.phi);
+                if (std::isfinite(std::norm(p.phi))) total += p.weight * std::sqrt(std::norm(p.phi));
         }
         divided.clear();
         for (int i = 0; i < count; ++i) {
@@ -190,11 +190,12 @@ double visit_quadrature(const Surface& source, const Chart& chart, const Differe
             double part = 0, most = 0;
             for (int n = 0; n < kPoints; ++n) {
                 mean += own[n].phi / static_cast<double>(kPoints);
-                part += own[n].weight * std::abs(own[n].phi);
+                part += own[n].weight * std::sqrt(std::norm(own[n].phi));
             }
-            for (int n = 0; n < kPoints; ++n) most = std::max(most, std::abs(own[n].phi - mean));
+            for (int n = 0; n < kPoints; ++n) most = std::max(most, std::norm(own[n].phi - mean));
             if (!std::isfinite(part)) return std::numeric_limits<double>::infinity();
-            const bool varies = most > options.variation * std::abs(mean) && part > options.tolerance * total;
+            const bool varies =
+                most > options.variation * options.variation * std::norm(mean) && part > options.tolerance * total;
             const bool possible = depth < options.most_depth && divided.size() < kMostPieces;
             if (depth < options.least_depth || (varies && possible)) {
                 divide(pieces[i], divided);

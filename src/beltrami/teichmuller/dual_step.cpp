@@ -21,10 +21,43 @@ constexpr double kGradientTolerance = 1e-12;
 constexpr double kClusterSlope = 0.6, kHoleClusterSlope = 0.25;
 /// No cluster is smaller, in a domain of diameter 2.
 constexpr double kSmallestCluster = 1e-5;
-/// (δ/s)² below which the second kind of Hessian row is left out.
-constexpr double kNearZero = 1e-3;
-/// Columns worked through at a time.
-constexpr int kColumnsPerChunk = 8;
+/// (δ/s)² and (r/s)² below which the second kind of Hessian row is left out.
+constexpr double kNearZero = 1e-3, kNearReach = 0.05;
+/// How far φ is expected to move at a point: as part of |φ| in the first step where nothing is known, then of the step
+/// before.
+constexpr double kFirstReach = 0.6, kReach = 0.7;
+/// A step is halved at most so often, until the norm falls by this part of what the slope promises.
+constexpr int kHalvings = 40;
+constexpr double kDescent = 1e-4;
+/// Newton steps on the coarse norm before the fine one is looked at again; they end at this part of the way made.
+constexpr int kInnerSteps = 8;
+constexpr double kInnerFraction = 0.15;
+/// The Hessian before a step shorter than this part of the whole serves for the next step too.
+constexpr double kSameHessian = 0.03;
+/// The coarse norm is trusted no longer once less than this part of its step is taken.
+constexpr double kTrusted = 0.3;
+/// The change that a second look is expected to make, as part of the first.
+constexpr double kFirstRate = 0.2;
+/// Gradients are exact where the norm is flat to rounding: so many rounds more, down to such a change.
+constexpr int kFlatRounds = 3;
+constexpr double kExact = 1e-11;
+/// Points that a thread takes at once.
+constexpr int kPoints = 512;
+/// Columns of the Hessian's rows that a thread fills at once.
+constexpr int kHessianColumns = 8;
+
+/// φ_c at the points of a basis.
+Eigen::VectorXcd combination(const Eigen::MatrixXcd& basis, const Eigen::VectorXcd& c) {
+    Eigen::VectorXcd phi(basis.rows());
+    parallel_for(
+        0, static_cast<int>(basis.rows()),
+        [&](int first, int last) {
+            const int count = last - first;
+            phi.segment(first, count).noalias() = basis.middleRows(first, count) * c;
+        },
+        kPoints);
+    return phi;
+}
 
 /// √(|φ|² + δ²), without the care that std::abs takes of overflow.
 Eigen::VectorXd sizes_of(const Eigen::VectorXcd& phi, double delta) {
@@ -63,7 +96,14 @@ Eigen::VectorXcd dual_gradient(const Eigen::MatrixXcd& basis, const Eigen::Vecto
                                const Eigen::VectorXcd& phi, double delta) {
     Eigen::VectorXd sizes = sizes_of(phi, delta);
     sizes = sizes.cwiseMax(kFloor * sizes.maxCoeff());
-    return basis.transpose() * weights.cwiseQuotient(sizes).cast<Complex>().cwiseProduct(phi.conjugate());
+    const Eigen::VectorXcd directions = weights.cwiseQuotient(sizes).cast<Complex>().cwiseProduct(phi.conjugate());
+    return parallel_sum<Eigen::VectorXcd>(
+        static_cast<int>(basis.rows()), Eigen::VectorXcd::Zero(basis.cols()),
+        [&](int first, int last) -> Eigen::VectorXcd {
+            const int count = last - first;
+            return basis.middleRows(first, count).transpose() * directions.segment(first, count);
+        },
+        kPoints);
 }
 
 double dilatation_of_pairing(double S) {
@@ -77,7 +117,7 @@ namespace {
 class OwnNorm final : public DualNorm {
   public:
     explicit OwnNorm(const DualProblem& problem) : problem_(problem) {}
-    Eigen::VectorXcd values(const Eigen::VectorXcd& c) const override { return problem_.basis * c; }
+    Eigen::VectorXcd values(const Eigen::VectorXcd& c) const override { return combination(problem_.basis, c); }
     double norm(const Eigen::VectorXcd& phi, double delta) const override {
         return problem_.weights.dot(sizes_of(phi, delta));
     }
@@ -89,43 +129,154 @@ class OwnNorm final : public DualNorm {
     const DualProblem& problem_;
 };
 
-/// The Hessian Σ w/s (Im(eφ_i) Im(eφ_j) + (δ/s)² Re(eφ_i) Re(eφ_j)) with s = √(|φ|²+δ²), e = conj(φ)/|φ|, in the lower
-/// triangle: a product of scaled rows. The second kind of row matters only near zeros of φ.
+/// The Hessian Σ w/s (Im(eφ_i) Im(eφ_j) + (ρ/s)² Re(eφ_i) Re(eφ_j)) with s = √(|φ|²+ρ²), e = conj(φ)/|φ|, in the lower
+/// triangle: a product of scaled rows. The second kind of row matters only where φ is small.
+///
+/// ρ² = δ² + r² with r the length by which φ is expected to move at the point. The Hessian of |φ| itself (r = 0) knows
+/// nothing about the far side of a zero, and steps overshoot wherever they are as long as φ is large; that of the
+/// rounded norm does, and is as good where they are short.
 /// @param storage of the rows: large, and kept from one call to the next
 Eigen::MatrixXd dual_hessian(const DualProblem& problem, const RealView& view, const Eigen::VectorXcd& phi,
-                             double delta, Eigen::VectorXd& storage) {
+                             double delta, const Eigen::VectorXd& reach, Eigen::VectorXd& storage) {
     const Eigen::Index m = problem.basis.cols(), points = problem.basis.rows();
-    Eigen::VectorXd sizes = sizes_of(phi, delta);
+    const Eigen::VectorXd rounding = reach.array().square() + delta * delta;
+    Eigen::VectorXd sizes = (phi.array().abs2() + rounding.array()).sqrt();
     sizes = sizes.cwiseMax(kFloor * sizes.maxCoeff());
-    std::vector<Eigen::Index> near_zeros;
-    for (Eigen::Index i = 0; i < points; ++i)
-        if (delta * delta > kNearZero * sizes[i] * sizes[i]) near_zeros.push_back(i);
+    std::vector<int> second(static_cast<std::size_t>(points), -1);  // row of the second kind
     Eigen::VectorXcd e(points);
+    int count = static_cast<int>(points);
     for (Eigen::Index i = 0; i < points; ++i) {
-        const double size = std::sqrt(std::norm(phi[i]));
-        e[i] = size > 0 ? std::conj(phi[i]) / size : 1.0;
+        const double size = std::sqrt(std::norm(phi[i])), square = sizes[i] * sizes[i];
+        e[i] = (size > 0 ? std::conj(phi[i]) / size : 1.0) * std::sqrt(problem.weights[i] / sizes[i]);
+        if (delta * delta > kNearZero * square || reach[i] * reach[i] > kNearReach * square) second[i] = count++;
     }
-    e = e.cwiseProduct(problem.weights.cwiseQuotient(sizes).cwiseSqrt().cast<Complex>());
-    const Eigen::Index height = points + static_cast<Eigen::Index>(near_zeros.size()), width = view.complex ? 2 * m : m;
+    const Eigen::Index height = count, width = view.complex ? 2 * m : m;
     if (storage.size() < height * width) storage.resize(2 * points * width);
     Eigen::Map<Eigen::MatrixXd> rows(storage.data(), height, width);
-    const auto fill = [&](int first, int last) {
-        Eigen::VectorXcd column(points);
-        for (Eigen::Index j = first; j < last; ++j) {
-            column = e.cwiseProduct(problem.basis.col(j));
-            rows.col(j).head(points) = column.imag();
-            if (view.complex) rows.col(m + j).head(points) = column.real();  // of iφ_j
-            for (std::size_t i = 0; i < near_zeros.size(); ++i) {
-                const auto row = points + static_cast<Eigen::Index>(i);
-                const double ratio = delta / sizes[near_zeros[i]];
-                rows(row, j) = ratio * column[near_zeros[i]].real();
-                if (view.complex) rows(row, m + j) = -ratio * column[near_zeros[i]].imag();
+    parallel_for(
+        0, static_cast<int>(m),
+        [&](int first, int last) {
+            for (int j = first; j < last; ++j) {
+                const Complex* const column = &problem.basis(0, j);
+                double* const to = &rows(0, j);
+                double* const to_imaginary = view.complex ? &rows(0, m + j) : nullptr;  // of iφ_j
+                for (Eigen::Index i = 0; i < points; ++i) {
+                    const double re = e[i].real() * column[i].real() - e[i].imag() * column[i].imag(),
+                                 im = e[i].real() * column[i].imag() + e[i].imag() * column[i].real();
+                    to[i] = im;
+                    if (to_imaginary) to_imaginary[i] = re;
+                    if (second[i] < 0) continue;
+                    const double ratio = std::sqrt(rounding[i]) / sizes[i];
+                    to[second[i]] = ratio * re;
+                    if (to_imaginary) to_imaginary[second[i]] = -ratio * im;
+                }
             }
-        }
-    };
-    parallel_for(0, static_cast<int>(m), fill, kColumnsPerChunk);
+        },
+        kHessianColumns);
     return gram_lower(rows);
 }
+
+/// The norm on the points of the problem with a linear term, Σ w √(|φ_x|²+δ²) + t·x, to be minimised on the hyperplane
+/// p·x = const. A tilt t makes its gradient that of another norm at one place.
+class TiltedNorm {
+  public:
+    TiltedNorm(const DualProblem& problem, const RealView& view, const Eigen::VectorXd& p, double delta)
+        : problem_(problem), view_(view), p_(p), delta_(delta) {}
+
+    Eigen::VectorXd gradient(const Eigen::VectorXcd& phi) const {
+        return view_.covector(dual_gradient(problem_.basis, problem_.weights, phi, delta_));
+    }
+
+    struct End {
+        int steps = 0;
+        bool converged = false;
+    };
+    /// Newton's method with backtracking from @p x.
+    /// @param phi       of x at the points; moves with it
+    /// @param reach     by how much φ is expected to move at the points; afterwards, in a step that would follow
+    /// @param step      it ends where another step is expected to be shorter than this part of x
+    /// @param fraction  … or than this part of the way made so far
+    End descend(Eigen::VectorXd& x, Eigen::VectorXcd& phi, const Eigen::VectorXd& tilt, Eigen::VectorXd& reach,
+                double step, double fraction, int max_steps) {
+        End end;
+        const Eigen::VectorXd start = x;
+        double value = problem_.weights.dot(sizes_of(phi, delta_)) + tilt.dot(x), last_moved = 0;
+        while (end.steps < max_steps) {
+            const Eigen::VectorXd slope_by = gradient(phi) + tilt;
+            const bool fresh = !same_hessian_;
+            if (fresh && !set_hessian(phi, reach)) break;
+            same_hessian_ = false;
+            const Eigen::VectorXd direction = newton_step(slope_by);
+            const double slope = slope_by.dot(direction), scale = std::abs(value);
+            if (!(slope < -kGradientTolerance * kGradientTolerance * scale)) {
+                end.converged = slope > -kGradientTolerance * scale;
+                break;
+            }
+            const Eigen::VectorXcd phi_step = combination(problem_.basis, view_.unpack(direction));
+            // At the level of rounding no step need descend.
+            const bool flat = -slope < kGradientTolerance * scale;
+            double length = 1;
+            bool accepted = false;
+            for (int halving = 0; halving < (fresh ? kHalvings : 1) && !accepted; ++halving) {
+                const Eigen::VectorXcd trial = phi + length * phi_step;
+                const double trial_value =
+                    problem_.weights.dot(sizes_of(trial, delta_)) + tilt.dot(x) + length * tilt.dot(direction);
+                accepted = trial_value <= value + (flat ? kGradientTolerance * scale : kDescent * length * slope);
+                if (accepted) {
+                    phi = trial;
+                    value = trial_value;
+                } else {
+                    length *= 0.5;
+                }
+            }
+            if (!accepted) {
+                if (fresh) break;
+                continue;  // with the Hessian of the place
+            }
+            x += length * direction;
+            reach = kReach * length * phi_step.cwiseAbs();
+            ++end.steps;
+            const double moved = length * direction.norm(),
+                         rest = last_moved > 0 ? moved * std::min(1.0, moved / last_moved) : moved;
+            same_hessian_ = length == 1 && moved < kSameHessian * x.norm() && (fresh || moved < kReach * last_moved);
+            if (flat || rest < step * x.norm() || rest < fraction * (x - start).norm()) {
+                end.converged = true;
+                break;
+            }
+            last_moved = moved;
+        }
+        return end;
+    }
+
+  private:
+    /// @return false if the Hessian is not definite
+    bool set_hessian(const Eigen::VectorXcd& phi, const Eigen::VectorXd& reach) {
+        Eigen::MatrixXd hessian = dual_hessian(problem_, view_, phi, delta_, reach, storage_);
+        // x itself is a null direction (the norm is homogeneous of degree one). On the hyperplane a multiple of p pᵀ
+        // changes nothing and makes the matrix definite; the tiny shift is for functions that no quadrature point sees.
+        const double mean_diagonal = hessian.trace() / static_cast<double>(p_.size());
+        hessian.selfadjointView<Eigen::Lower>().rankUpdate(p_, mean_diagonal / p_.squaredNorm());
+        hessian.diagonal().array() += 1e-14 * mean_diagonal;
+        cholesky_.compute(hessian);
+        if (cholesky_.info() != Eigen::Success) return false;
+        by_constraint_ = cholesky_.solve(p_);
+        return true;
+    }
+
+    Eigen::VectorXd newton_step(const Eigen::VectorXd& gradient) const {
+        const Eigen::VectorXd by_gradient = cholesky_.solve(gradient);
+        return p_.dot(by_gradient) / p_.dot(by_constraint_) * by_constraint_ - by_gradient;
+    }
+
+    const DualProblem& problem_;
+    const RealView& view_;
+    const Eigen::VectorXd& p_;
+    double delta_;
+    Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> cholesky_;
+    Eigen::VectorXd by_constraint_;
+    Eigen::VectorXd storage_;    ///< of dual_hessian()
+    bool same_hessian_ = false;  ///< the next step takes the one at hand
+};
 
 }  // namespace
 
@@ -150,63 +301,85 @@ DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& star
         along = p.squaredNorm();
     }
     Eigen::VectorXd x = view.pack(c) / along;
-    Eigen::VectorXcd coarse_phi = problem.basis * view.unpack(x), phi = fine.values(view.unpack(x));
+    Eigen::VectorXcd coarse_phi = combination(problem.basis, view.unpack(x));
     const double total = problem.weights.sum();
-    const double delta = total > 0 ? problem.rounding * problem.weights.dot(coarse_phi.cwiseAbs()) / total : 0.0;
-    double norm = fine.norm(phi, delta);
-    Eigen::VectorXd storage;  // of dual_hessian
-    // The hyperplane of a single real function is a point.
-    solution.converged = x.size() == 1;
-    for (; x.size() > 1 && solution.newton_steps < options.max_steps; ++solution.newton_steps) {
-        const Eigen::VectorXd gradient = view.covector(fine.gradient(phi, delta));
-        Eigen::MatrixXd hessian = dual_hessian(problem, view, coarse_phi, delta, storage);
-        // c itself is a null direction (N is homogeneous of degree one). On the hyperplane a multiple of p pᵀ changes
-        // nothing and makes the matrix definite; the tiny shift is for functions that no quadrature point sees.
-        const double mean_diagonal = hessian.trace() / static_cast<double>(x.size());
-        hessian.selfadjointView<Eigen::Lower>().rankUpdate(p, mean_diagonal / p.squaredNorm());
-        hessian.diagonal().array() += 1e-14 * mean_diagonal;
-        const Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> cholesky(hessian);
-        if (cholesky.info() != Eigen::Success) break;
-        const Eigen::VectorXd by_gradient = cholesky.solve(gradient), by_constraint = cholesky.solve(p);
-        const double multiplier = p.dot(by_gradient) / p.dot(by_constraint);
-        const Eigen::VectorXd step = multiplier * by_constraint - by_gradient;
-        const double slope = gradient.dot(step);
-        if (!(slope < -kGradientTolerance * kGradientTolerance * norm)) {
-            solution.converged = slope > -kGradientTolerance * norm;
-            break;
-        }
-
-        const Eigen::VectorXcd phi_step = fine.values(view.unpack(step));
-        double length = 1;
-        bool accepted = false;
-        for (int halving = 0; halving < 40 && !accepted; ++halving) {
-            const Eigen::VectorXcd trial = phi + length * phi_step;
-            const double trial_norm = fine.norm(trial, delta);
-            accepted = trial_norm <= norm + 1e-4 * length * slope;
-            if (accepted) {
-                phi = trial;
-                norm = trial_norm;
-            } else {
-                length *= 0.5;
+    const auto mean_size = [&] { return total > 0 ? problem.weights.dot(coarse_phi.cwiseAbs()) / total : 0.0; };
+    const double delta = problem.rounding * mean_size();
+    TiltedNorm coarse(problem, view, p, delta);
+    const Eigen::VectorXcd start_phi = coarse_phi;
+    Eigen::VectorXd reach = options.reach.size() ? Eigen::VectorXd(mean_size() * options.reach)
+                                                 : Eigen::VectorXd(kFirstReach * coarse_phi.cwiseAbs());
+    if (x.size() == 1) {  // the hyperplane of a single real function is a point
+        solution.converged = true;
+        solution.phi = fine.values(view.unpack(x));
+        solution.norm = fine.norm(solution.phi, delta);
+    } else if (!options.norm) {
+        const TiltedNorm::End end =
+            coarse.descend(x, coarse_phi, Eigen::VectorXd::Zero(x.size()), reach, options.step, 0, options.max_steps);
+        solution.newton_steps = end.steps;
+        solution.converged = end.converged;
+        solution.phi = coarse_phi;
+        solution.norm = own.norm(solution.phi, delta);
+    } else {
+        // The norm on fewer points, tilted to have the gradient of the other one: its minimum is that of the other one
+        // but for the change of the difference between them.
+        Eigen::VectorXcd phi = fine.values(view.unpack(x));
+        double norm = fine.norm(phi, delta), last_moved = 0;
+        bool trusted = true;
+        int flat_rounds = 0;
+        for (int round = 0; solution.newton_steps < options.max_steps; ++round) {
+            const Eigen::VectorXd gradient = view.covector(fine.gradient(phi, delta));
+            const Eigen::VectorXd tilt = gradient - coarse.gradient(coarse_phi);
+            Eigen::VectorXd next = x;
+            const TiltedNorm::End end =
+                coarse.descend(next, coarse_phi, tilt, reach, options.step, kInnerFraction,
+                               std::min(trusted ? kInnerSteps : 1, options.max_steps - solution.newton_steps));
+            solution.newton_steps += end.steps;
+            if (end.steps == 0 && !end.converged) break;
+            const Eigen::VectorXd direction = next - x;
+            const double slope = gradient.dot(direction);
+            if (!(slope < -kGradientTolerance * kGradientTolerance * norm)) {
+                solution.converged = slope > -kGradientTolerance * norm;
+                break;
             }
+            const bool flat = -slope < kGradientTolerance * norm;
+            flat_rounds += flat;
+            const Eigen::VectorXcd phi_next = fine.values(view.unpack(next));
+            double length = 1;
+            bool accepted = false;
+            for (int halving = 0; halving < kHalvings && !accepted; ++halving) {
+                const Eigen::VectorXcd trial =
+                    length < 1 ? Eigen::VectorXcd(phi + length * (phi_next - phi)) : phi_next;
+                const double trial_norm = fine.norm(trial, delta);
+                accepted = trial_norm <= norm + (flat ? kGradientTolerance * norm : kDescent * length * slope);
+                if (accepted) {
+                    phi = trial;
+                    norm = trial_norm;
+                } else {
+                    length *= 0.5;
+                }
+            }
+            if (accepted) x += length * direction;
+            if (length < 1) coarse_phi = combination(problem.basis, view.unpack(x));
+            const double moved = length * direction.norm() / x.norm();
+            // What another round would still change.
+            const double rest = moved * (round == 0 ? kFirstRate : std::min(1.0, moved / last_moved));
+            last_moved = moved;
+            // Functions that the coarse norm hardly sees lead it astray: then step by step.
+            const bool whole = length > kTrusted;
+            trusted = trusted && whole;
+            if (flat_rounds > kFlatRounds || (accepted && whole && rest < std::max(options.step, kExact))) {
+                solution.converged = true;
+                break;
+            }
+            if (!accepted) break;
         }
-        if (accepted) {
-            x += length * step;
-            coarse_phi = problem.basis * view.unpack(x);
-        }
-        // At the level of rounding no step need descend.
-        const bool flat = -slope < kGradientTolerance * norm;
-        if (flat || (accepted && length * step.norm() < options.step * x.norm())) {
-            solution.converged = true;
-            solution.newton_steps += accepted;
-            break;
-        }
-        if (!accepted) break;
+        solution.phi = std::move(phi);
+        solution.norm = norm;
     }
     solution.coefficients = view.unpack(x);
     solution.pairing = p.dot(x);
-    solution.norm = norm;
-    solution.phi = std::move(phi);
+    solution.moved = (coarse_phi - start_phi).cwiseAbs() / mean_size();
     return solution;
 }
 

@@ -27,6 +27,8 @@ struct DualSolution {
     double pairing = 0;             ///< Re Σ p_j c_j: 1, or 0 if the pairing vanishes
     double norm = 0;                ///< N(c)
     Eigen::VectorXcd phi;           ///< φ_c at the points of the norm
+    /// |φ_c − φ at the start| at the points of the problem, per mean |φ_c| there: how far φ has moved.
+    Eigen::VectorXd moved;
     int newton_steps = 0;
     bool converged =
         false;  ///< false: the steps allowed did not suffice, or no step descends although the slope is not 0
@@ -46,7 +48,9 @@ class DualNorm {
 
 struct DualOptions {
     int max_steps = 50;  ///< of Newton's method
-    double step = 0;     ///< stop after a step shorter than this part of c
+    double step = 0;     ///< stop where another step is expected to be shorter than this part of c
+    /// How far φ is expected to move at the points of the problem, per mean |φ|, as DualSolution::moved; may be empty.
+    Eigen::VectorXd reach{};
     /// Where N is minimised; null: on the points of the problem. The steps are Newton's as far as the problem's points
     /// give the Hessian.
     const DualNorm* norm = nullptr;

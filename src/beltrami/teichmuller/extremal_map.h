@@ -29,7 +29,8 @@ struct ExtremalOptions {
     /// used. Empty: those of the harmonic map, or of the start.
     std::vector<int> turns;
     /// A map to start from (#V) instead of the harmonic one, for instance one of another homotopy class; prescribed
-    /// vertices are put in their places.
+    /// vertices are put in their places. Where the map that comes of it is folded, all begins again without it, and a
+    /// warning says so.
     std::optional<Eigen::VectorXcd> start;
     /// Start from the map that is led along the way of the holes through these places (continuation.h; none: straight
     /// ways), which fixes how the holes braid and turn. The way begins at the source itself where it lies in the plane
@@ -97,7 +98,7 @@ struct ExtremalMap {
     std::optional<BoundaryCorner> sharpest;
     double boundary_residual = 0;  ///< largest distance of a prescribed vertex from its image
     Termination termination = Termination::converged;
-    int iterations = 0;          ///< linear solves after the harmonic one
+    int iterations = 0;          ///< linear solves after the harmonic one, those from a start given up included
     int factorizations = 0;      ///< of #V×#V systems and larger, chart included
     bool evened = false;         ///< |μ| was evened out after the iteration
     bool folds_removed = false;  ///< the iteration left flipped faces, which a fold-free solve with its φ and k removed

@@ -48,12 +48,18 @@ constexpr double kRough = 0.6;
 constexpr double kUnevenAtSingularities = 0.02, kUneven = 0.1, kUnevenAtAll = 2e-3;
 /// Where evening out is to be expected, the iteration ends at this change of φ, its square of k, or after so many
 /// steps.
-constexpr double kRoughTolerance = 0.03;
+constexpr double kRoughTolerance = 0.02;
 constexpr int kRoughIterations = 16;
-constexpr double kRoughRounding = 0.005;
+constexpr double kRoughRounding = 0.005, kRoughStep = 0.05;
 /// Newton step, as part of the whole, to which the c-step is solved after the iteration.
-constexpr double kFinishingStep = 3e-4;
+constexpr double kFinishingStep = 2e-3;
 constexpr int kFinishingSteps = 20;
+/// Distance from the unit circle of a chart's vertex that lies on it.
+constexpr double kRound = 1e-3;
+/// Width of the bracket, as part of K, from which on poles that were thought needless are needed.
+constexpr double kPolesNeeded = 0.01;
+/// Merits that differ by less, as part of them, do not tell which of two bounds is the larger one.
+constexpr double kCloseMerit = 0.01;
 /// Directions of held vertices that turn by less (radians) are kept, and they are followed so often.
 constexpr double kTurned = 0.02;
 constexpr int kMostTurns = 4;
@@ -92,7 +98,11 @@ struct ExtremalSolver::Implementation {
     std::vector<LoopPath> paths;  // along which turns are counted
     HeldVertices held_alone;      // as the space of differentials has them
     bool converged = false;
-    int other_factorizations = 0;  // of the chart and the finish
+    int other_factorizations = 0;           // of the chart and the finish
+    int earlier_iterations = 0;             // from a start that was given up
+    bool smooth = true;                     // φ has no singularities
+    std::optional<Singularities> withheld;  // that φ may have but need not
+    bool evened = false, folds_removed = false;
 
     Implementation(const Surface& given, const BoundaryCondition& b, const ExtremalOptions& o, PreparedProblem p)
         : options(o),
@@ -107,11 +117,22 @@ struct ExtremalSolver::Implementation {
         warnings.insert(warnings.end(), chart.warnings.begin(), chart.warnings.end());
         Singularities singularities = singularities_of(source, chart, boundary, corners, problem.harmonic());
         held_alone = held_vertices(source, chart, boundary, problem.harmonic());
-        const bool smooth = singularities.empty();
-        problem.set_chart(std::move(chart), std::move(singularities), options.cluster_count);
+        problem.set_chart(std::move(chart));
+        smooth = singularities.empty();
+        // Corners that only a fine mesh would resolve need no poles; that they do not, the coarse problem shows.
+        if (singularities.only_corners() && has_plain_start() && outline_is_round()) {
+            CoarseStart coarse = coarse_start(source, boundary, problem.chart(), problem.phase(), options);
+            if (coarse.tight) {
+                smooth = true;
+                state = std::move(coarse.state);
+                withheld = std::move(singularities);
+                singularities = {};
+            }
+        }
+        problem.set_singularities(std::move(singularities), options.cluster_count);
         if (source.topology.boundary_loops.size() > 1)
             paths = loop_paths(source, problem.chart().vertices, options.outer_loop);
-        choose_start(smooth);
+        choose_start();
     }
 
     /// Whether enough edges run from a corner to the next ones of its loop for its angles and speeds to mean something:
@@ -125,7 +146,7 @@ struct ExtremalSolver::Implementation {
         return true;
     }
 
-    void choose_start(bool smooth) {
+    void choose_start() {
         map = problem.harmonic();
         if (options.start) {
             map = prepared.split ? with_parents_means(*options.start, prepared.split->parents) : *options.start;
@@ -137,10 +158,20 @@ struct ExtremalSolver::Implementation {
             map = follow(source, Continuation(source, places, options.outer_loop, boundary, *options.waypoints)).map;
         } else if (!options.turns.empty()) {
             map = start_in_class(source, problem.chart().vertices, options.outer_loop, boundary, options.turns).map;
-        } else if (smooth) {
-            state = coarse_start(source, boundary, problem.chart(), problem.phase(), options);
+        } else if (smooth && !state.space) {
+            state = coarse_start(source, boundary, problem.chart(), problem.phase(), options).state;
         }
     }
+
+    /// Whether the chart is that of the round disk.
+    bool outline_is_round() const {
+        if (source.topology.boundary_loops.size() != 1) return false;
+        const auto& loop = source.topology.boundary_loops[0];
+        return std::all_of(loop.begin(), loop.end(),
+                           [&](int v) { return std::abs(std::abs(problem.chart().vertices[v]) - 1) < kRound; });
+    }
+
+    bool has_plain_start() const { return !options.start && !options.waypoints && options.turns.empty(); }
 
     /// Whether vertices that are held to lines one by one move otherwise under the map than φ takes them to.
     bool held_have_turned() const {
@@ -155,9 +186,8 @@ struct ExtremalSolver::Implementation {
         iterate_once(how);
         for (int turn = 0; turn < kMostTurns && held_have_turned(); ++turn) {
             held_alone = held_vertices(source, problem.chart(), boundary, map);
-            Chart chart = problem.chart();
-            Singularities singularities = singularities_of(source, chart, boundary, corners, map);
-            problem.set_chart(std::move(chart), std::move(singularities), options.cluster_count);
+            problem.set_singularities(singularities_of(source, problem.chart(), boundary, corners, map),
+                                      options.cluster_count);
             state = {};
             iterate_once(how);
         }
@@ -207,10 +237,10 @@ struct ExtremalSolver::Implementation {
             k = step.k;
             return true;
         };
-        EvenDilatation evened = even_dilatation(source, held(), map, step.k, step.phi, update);
-        other_factorizations += evened.factorizations;
-        if (!evened.improved) return false;
-        map = std::move(evened.map);
+        EvenDilatation even = even_dilatation(source, held(), map, step.k, step.phi, update);
+        other_factorizations += even.factorizations;
+        if (!even.improved) return false;
+        map = std::move(even.map);
         return true;
     }
 
@@ -241,16 +271,48 @@ struct ExtremalSolver::Implementation {
 
     /// Of the map, or of the one before it was evened out: evening makes the bounds, as a rule, a little worse.
     SolutionBounds best_bounds(const Distortion& measured) const {
+        if (!before_evening || before_evening->step.merit < (1 - kCloseMerit) * step.merit)
+            return bounds_of(map, step, measured, integrals_of(measured, step));
+        const auto& [earlier_map, earlier_step] = *before_evening;
+        const Distortion earlier = distortion(source.operators, earlier_map);
+        const ReichStrebel earlier_integrals = integrals_of(earlier, earlier_step);
+        if (earlier_integrals.valid && earlier_step.merit > (1 + kCloseMerit) * step.merit)
+            return bounds_of(earlier_map, earlier_step, earlier, earlier_integrals);
         const auto lower = [](const ReichStrebel& integrals) { return integrals.valid ? integrals.lower : 1; };
         const ReichStrebel integrals = integrals_of(measured, step);
-        if (before_evening) {
-            const auto& [earlier_map, earlier_step] = *before_evening;
-            const Distortion earlier = distortion(source.operators, earlier_map);
-            const ReichStrebel earlier_integrals = integrals_of(earlier, earlier_step);
-            if (lower(earlier_integrals) >= lower(integrals))
-                return bounds_of(earlier_map, earlier_step, earlier, earlier_integrals);
-        }
+        if (lower(earlier_integrals) >= lower(integrals))
+            return bounds_of(earlier_map, earlier_step, earlier, earlier_integrals);
         return bounds_of(map, step, measured, integrals);
+    }
+
+    /// The iteration from where it stands, and what comes after it.
+    void run();
+
+    /// Whether singularities that were thought needless are needed after all.
+    bool needs_poles() const { return withheld && bracket(step) > kPolesNeeded; }
+
+    /// Lets φ have its singularities after all.
+    void take_poles() {
+        problem.set_singularities(std::move(*withheld), options.cluster_count);
+        withheld.reset();
+        smooth = false;
+        state = {};
+    }
+
+    /// Gives up the start that was asked for: a map so folded that the class of μ means nothing leads nowhere.
+    void start_again() {
+        const int folds = folded_samples(beltrami_coefficient(source.operators, map));
+        warnings.push_back("from the start that was given the iteration ended with " + std::to_string(folds) +
+                           " flipped faces; the map comes from the " +
+                           (options.waypoints || !options.turns.empty() ? "start without it" : "harmonic start") +
+                           ", whose homotopy class may be another");
+        options.start.reset();
+        state = {};
+        before_evening.reset();
+        earlier_iterations += static_cast<int>(history.size()) - 1;
+        history.clear();
+        choose_start();
+        run();
     }
 
     ExtremalMap record() const;
@@ -297,35 +359,44 @@ ExtremalSolver::Update ExtremalSolver::update(const std::vector<Complex>& images
 ExtremalMap ExtremalSolver::solve() {
     if (pieces_) return pieces_->solve();
     Implementation& m = *implementation_;
-    using Evening = ExtremalOptions::Evening;
     m.history.clear();
-    bool evened = false;
-    if (m.problem.singular() && !m.problem.jumps() && m.options.evening != Evening::never) {
+    m.earlier_iterations = 0;
+    m.run();
+    if (m.options.start && m.folded()) m.start_again();
+    ExtremalMap result = m.record();
+    m.before_evening.reset();
+    return result;
+}
+
+void ExtremalSolver::Implementation::run() {
+    using Evening = ExtremalOptions::Evening;
+    evened = false;
+    if ((problem.singular() || withheld) && !problem.jumps() && options.evening != Evening::never) {
         // Evening out moves φ more than the last digits of the iteration do.
-        HamiltonIteration::Options rough = iteration_options(m.options);
+        HamiltonIteration::Options rough = iteration_options(options);
         rough.tolerance = std::max(rough.tolerance, kRoughTolerance);
         rough.k_tolerance = std::max(rough.k_tolerance, kRoughTolerance * kRoughTolerance);
         rough.max_iterations = std::min(rough.max_iterations, kRoughIterations);
+        rough.step_below_change = kRoughStep;
         rough.grow_last = false;
-        m.problem.coefficient_step().set_least_rounding(kRoughRounding);
-        m.iterate(rough);
-        m.problem.coefficient_step().set_least_rounding(0);
-        evened = m.converged && m.uneven() && m.even_out();
+        problem.coefficient_step().set_least_rounding(kRoughRounding);
+        iterate(rough);
+        problem.coefficient_step().set_least_rounding(0);
+        evened = converged && !needs_poles() && uneven() && even_out();
     }
     if (!evened) {
-        HamiltonIteration::Options rest = iteration_options(m.options);
-        rest.max_iterations -= std::max(0, static_cast<int>(m.history.size()) - 1);
-        if (rest.max_iterations > 0) m.iterate(rest);
-        evened = (m.options.evening == Evening::always || (m.options.evening == Evening::where_needed && m.uneven())) &&
-                 m.even_out();
+        HamiltonIteration::Options rest = iteration_options(options);
+        rest.max_iterations -= std::max(0, static_cast<int>(history.size()) - 1);
+        if (rest.max_iterations > 0) iterate(rest);
+        if (needs_poles()) {
+            take_poles();
+            return run();
+        }
+        evened = (options.evening == Evening::always || (options.evening == Evening::where_needed && uneven())) &&
+                 even_out();
     }
-    const bool folds_removed = m.options.remove_folds && m.folded() && m.remove_folds();
-    if (evened || folds_removed) m.update_coefficient();
-    ExtremalMap result = m.record();
-    m.before_evening.reset();
-    result.evened = evened;
-    result.folds_removed = folds_removed;
-    return result;
+    folds_removed = options.remove_folds && folded() && remove_folds();
+    if (evened || folds_removed) update_coefficient();
 }
 
 /// Everything that is measured on the final map, with φ of the last c-step.
@@ -336,7 +407,9 @@ ExtremalMap ExtremalSolver::Implementation::record() const {
     result.harmonic = problem.harmonic();
     result.history = history;
     result.warnings = warnings;
-    result.iterations = static_cast<int>(history.size()) - 1;
+    result.iterations = earlier_iterations + static_cast<int>(history.size()) - 1;
+    result.evened = evened;
+    result.folds_removed = folds_removed;
     result.factorizations = other_factorizations + problem.solver().factorization_count();
     result.termination = converged ? Termination::converged : Termination::iteration_limit;
     result.split = prepared.split;

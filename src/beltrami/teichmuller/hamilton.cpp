@@ -13,8 +13,8 @@ namespace {
 
 /// k of the f-step stays below this.
 constexpr double kLargest = 0.9999;
-/// The c-step is solved to this part of its change in the last iteration.
-constexpr double kStepBelowChange = 0.01;
+/// A change from which on a c-step need not be solved less precisely.
+constexpr double kLargeChange = 0.1;
 /// Changes of φ below this that do not become smaller for some iterations, while k stays, come from zeros of φ.
 constexpr double kStalledBelow = 3e-4, kStalledChangeOfK = 1e-5;
 constexpr int kStalledFor = 4;
@@ -45,6 +45,10 @@ Eigen::VectorXd pack(const Eigen::VectorXcd& direction, double k) {
 }
 
 }  // namespace
+
+double bracket(const CoefficientStep::Result& step) {
+    return (1 + step.k) / ((1 - step.k) * step.merit) - 1;
+}
 
 Eigen::VectorXcd teichmueller_coefficient(double k, const Eigen::VectorXcd& phi) {
     Eigen::VectorXcd nu(phi.size());
@@ -93,7 +97,7 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
         state.space = std::move(smallest);
         coefficient_step_.set_space(*state.space);
         const Eigen::VectorXcd mu = beltrami_coefficient(source_.operators, map_);
-        step_ = coefficient_step_.solve(mu, {});
+        step_ = coefficient_step_.solve(mu, {}, options_.tolerance * options_.step_below_change);
         if (!state.space->preliminary()) grow(state, mu);
         state.direction = step_.direction;
         state.k = step_.k;
@@ -117,7 +121,8 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
         map_step_.solve(nu, map_, kSolveBelowChange * std::min(change, 0.1));
         ++iterations_;
         const Eigen::VectorXcd mu = beltrami_coefficient(source_.operators, map_);
-        step_ = coefficient_step_.solve(mu, state.direction, kStepBelowChange * std::min(change, 0.1), kNewtonSteps);
+        step_ = coefficient_step_.solve(mu, state.direction,
+                                        options_.step_below_change * std::min(change, kLargeChange), kNewtonSteps);
         if (step_.merit > best.merit) {
             best = step_;
             best_map = map_;
@@ -138,7 +143,7 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
         }
         const bool stalled = least_change < kStalledBelow && since_least >= kStalledFor && k_change < kStalledChangeOfK;
         // Where the data hardly tell two φ apart, φ wanders while k stays and the bound is as near as it will come.
-        const double gap = (1 + step_.k) / ((1 - step_.k) * step_.merit) - 1;
+        const double gap = bracket(step_);
         quiet = change > kQuietAbove && k_change < kQuietChangeOfK ? quiet + 1 : 0;
         const bool undecided = quiet >= kQuietFor && gap < kQuietGap && !state.space->preliminary();
         const bool settled =
@@ -184,7 +189,11 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
             state.direction.normalize();
             state.k = std::clamp(next[2 * m], 0.0, kLargest);
         } else {
-            state.direction = (state.direction + relaxation * (step_.direction - state.direction)).normalized();
+            state.direction =
+                relaxation == 1
+                    ? step_.direction
+                    : Eigen::VectorXcd(
+                          (state.direction + relaxation * (step_.direction - state.direction)).normalized());
             state.k = std::min(state.k + relaxation * (step_.k - state.k), kLargest);
         }
     }

@@ -30,6 +30,8 @@ class HamiltonIteration {
         double tolerance = 1e-8;    ///< of φ's direction
         double k_tolerance = 1e-8;  ///< of k
         int max_iterations = 60;
+        /// The c-step is solved to this part of the change of φ in the last iteration.
+        double step_below_change = 0.01;
         double growth = 1e-5;
         int anderson_window = 5;
         /// When a larger space is tried, besides at a start from nothing: with the first map that comes from another
@@ -66,6 +68,9 @@ class HamiltonIteration {
     int iterations_ = 0;
     bool converged_ = false;
 };
+
+/// Width of the bracket between the k of a c-step and its Reich-Strebel bound, as part of K.
+double bracket(const CoefficientStep::Result& step);
 
 /// ν = k conj(φ)/|φ|, 0 where φ says nothing.
 Eigen::VectorXcd teichmueller_coefficient(double k, const Eigen::VectorXcd& phi);

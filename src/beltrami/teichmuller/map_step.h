@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include <beltrami/maps/beltrami_solver.h>
 
 namespace beltrami {
@@ -28,7 +30,10 @@ class FixedMapStep final : public MapStep {
     }
     /// Whether the solver's last factorisation is of a coefficient near the next one, so that conjugate gradients with
     /// it may do.
-    void set_near(bool near) { near_ = near; }
+    void set_near(bool near) {
+        near_ = near;
+        given_up_at_ = std::numeric_limits<double>::infinity();
+    }
 
     void solve(const Eigen::VectorXcd& nu, Eigen::VectorXcd& map, double tolerance) override;
 
@@ -36,6 +41,7 @@ class FixedMapStep final : public MapStep {
     BeltramiSolver& solver_;
     Eigen::VectorXcd prescribed_, directions_;
     bool near_ = false;
+    double given_up_at_ = std::numeric_limits<double>::infinity();  ///< tolerance at which near_ was not near enough
 };
 
 }  // namespace beltrami

@@ -85,10 +85,13 @@ ExtremalProblem::ExtremalProblem(const Surface& source, const BoundaryCondition&
     map_step_.solve(Eigen::VectorXcd::Zero(source.operators.sample_count()), harmonic_, 0);
 }
 
-void ExtremalProblem::set_chart(Chart chart, Singularities singularities, int cluster_count) {
+void ExtremalProblem::set_chart(Chart chart) {
     chart_ = std::move(chart);
-    singularities_ = std::move(singularities);
     phase_ = phase_of(chart_, boundary_);
+}
+
+void ExtremalProblem::set_singularities(Singularities singularities, int cluster_count) {
+    singularities_ = std::move(singularities);
     coefficient_step_.emplace(source_, chart_, singularities_, phase_, cluster_count);
 }
 

@@ -19,8 +19,10 @@ class ExtremalProblem {
     ExtremalProblem(const Surface& source, const BoundaryCondition& boundary, int expected_factorizations);
     ExtremalProblem(const ExtremalProblem&) = delete;
 
-    /// Takes a chart and where φ may be singular.
-    void set_chart(Chart chart, Singularities singularities, int cluster_count);
+    /// Takes a chart; phase() is known from then on.
+    void set_chart(Chart chart);
+    /// Takes where φ may be singular, in the chart that was set: the c-step is known from then on.
+    void set_singularities(Singularities singularities, int cluster_count);
 
     const Surface& source() const { return source_; }
     BeltramiSolver& solver() { return solver_; }

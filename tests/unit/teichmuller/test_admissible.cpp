@@ -39,7 +39,8 @@ TEST_P(Admissible, DifferentialsPairWithNoMotion) {
     ASSERT_EQ(singularities.curves.size(), kind == Kind::held_alone ? 0u : 1u);
     ASSERT_EQ(singularities.real(), kind != Kind::pinned);
     ExtremalProblem problem(source, boundary, 1);
-    problem.set_chart(chart, singularities, 1500);
+    problem.set_chart(chart);
+    problem.set_singularities(singularities, 1500);
     std::unique_ptr<DifferentialSpace> space = problem.starting_space(10);
     while (auto larger = space->refined()) space = std::move(larger);
     EXPECT_EQ(space->complex_coefficients(), kind == Kind::pinned);

@@ -107,6 +107,53 @@ TEST(DualStep, TheMinimumIsThatOfTheNormWhateverTheQuadratureOfTheHessian) {
     EXPECT_LT((c / c.norm() - exact / exact.norm()).norm(), 1e-3 * apart + 1e-10);
 }
 
+/// Counts how often the norm is looked at.
+class CountedNorm final : public DualNorm {
+  public:
+    explicit CountedNorm(const DualNorm& norm) : norm_(norm) {}
+    Eigen::VectorXcd values(const Eigen::VectorXcd& c) const override {
+        ++passes;
+        return norm_.values(c);
+    }
+    double norm(const Eigen::VectorXcd& phi, double delta) const override { return norm_.norm(phi, delta); }
+    Eigen::VectorXcd gradient(const Eigen::VectorXcd& phi, double delta) const override {
+        ++passes;
+        return norm_.gradient(phi, delta);
+    }
+    mutable int passes = 0;
+
+  private:
+    const DualNorm& norm_;
+};
+
+TEST(DualStep, FewStepsFromNearAndFewLooksAtTheFineNorm) {
+    const Setting setting;
+    Eigen::VectorXcd mu = setting.teichmueller(0.4);
+    for (int s = 0; s < mu.size(); ++s) mu[s] += Complex(0.05 * std::sin(s), 0.05 * std::cos(5 * s));
+    DualProblem problem = problem_of(setting.surface, setting.chart, setting.space, mu);
+    problem.rounding = 0.01;
+    const Eigen::VectorXcd exact = solve_dual(problem, {}).coefficients.normalized();
+    Eigen::VectorXcd near = exact;
+    for (int j = 0; j < near.size(); ++j) near[j] += 0.05 * std::polar(1.0, 2.0 * j);
+    const DualSolution own = solve_dual(problem, near, {.step = 0.01});
+    EXPECT_TRUE(own.converged);
+    EXPECT_LE(own.newton_steps, 4);
+    EXPECT_LT((own.coefficients.normalized() - exact).norm(), 0.01);
+
+    const SampleClusters clusters = cluster_samples(setting.surface.operators, setting.chart, {}, 0.3, 150);
+    DualProblem coarse = problem;
+    coarse.basis = setting.space.evaluate(clusters.points);
+    coarse.weights = Eigen::VectorXd::Zero(coarse.basis.rows());
+    for (int s = 0; s < mu.size(); ++s)
+        coarse.weights[clusters.cluster[s]] += clusters.squared[s] * (1 + std::norm(mu[s])) / (1 - std::norm(mu[s]));
+    const NormOf norm(problem);
+    const CountedNorm counted(norm);
+    const DualSolution fine = solve_dual(coarse, near, {.step = 0.01, .norm = &counted});
+    EXPECT_TRUE(fine.converged);
+    EXPECT_LE(counted.passes, 7);
+    EXPECT_LT((fine.coefficients.normalized() - exact).norm(), 0.01);
+}
+
 TEST(DualStep, NothingToSee) {
     const Setting setting;
     const DualProblem problem = problem_of(setting.surface, setting.chart, setting.space,
