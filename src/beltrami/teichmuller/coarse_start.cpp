@@ -16,8 +16,9 @@ namespace {
 constexpr double kTwoPi = 2 * std::numbers::pi;
 /// Below so many samples the coarse problem would cost as much as it saves.
 constexpr int kWorthFrom = 6'000;
-/// The bracket of a smooth problem, as part of K, times the number of triangles: less than this.
-constexpr double kTightPerTriangle = 15;
+/// The bracket of a smooth problem, as part of K, times the number of triangles: less than this. (.7 for a bump, but 4
+/// for four points of a disk, where leaving the poles out would cost .35 % of K.)
+constexpr double kTightPerTriangle = 2;
 /// Triangles of the coarse mesh: a part of the samples, within limits.
 constexpr int kCoarsePart = 7, kFewestTriangles = 1'200, kMostTriangles = 5'000;
 
