@@ -97,17 +97,26 @@ def write_obj(path, points, faces, vt=None):
             out.write("f " + " ".join(f"{i + 1}/{i + 1}" if vt is not None else str(i + 1) for i in f) + "\n")
 
 
-def read_obj(path):
-    v, vt, f = [], [], []
+def read_faces(path):
+    """v, vt and faces of any degree, with the material in use at each."""
+    v, vt, faces, materials, material = [], [], [], [], None
     for line in pathlib.Path(path).read_text().splitlines():
         word, *rest = line.split()
         if word == "v":
             v.append([float(x) for x in rest])
         elif word == "vt":
             vt.append([float(x) for x in rest])
+        elif word == "usemtl":
+            material = rest[0]
         elif word == "f":
-            f.append([int(c.split("/")[0]) - 1 for c in rest])
-    return np.array(v), np.array(vt), np.array(f)
+            faces.append([int(c.split("/")[0]) - 1 for c in rest])
+            materials.append(material)
+    return np.array(v), np.array(vt), faces, materials
+
+
+def read_obj(path):
+    v, vt, faces, _ = read_faces(path)
+    return v, vt, np.array(faces)
 
 
 def abs_mu(source, image, faces):

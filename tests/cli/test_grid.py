@@ -7,29 +7,12 @@ import unittest
 
 import numpy as np
 
-from support import MESHES, Command, bump, disk_with_holes, ring, write_obj
+from support import MESHES, Command, bump, disk_with_holes, read_faces, ring, write_obj
 
 
 def domain(path, outer, holes=()):
     pathlib.Path(path).write_text(json.dumps({"outer": outer, "holes": list(holes)}))
     return path
-
-
-def read_faces(path):
-    """v, vt and faces of any degree, with the material in use at each."""
-    v, vt, faces, materials, material = [], [], [], [], None
-    for line in pathlib.Path(path).read_text().splitlines():
-        word, *rest = line.split()
-        if word == "v":
-            v.append([float(x) for x in rest])
-        elif word == "vt":
-            vt.append([float(x) for x in rest])
-        elif word == "usemtl":
-            material = rest[0]
-        elif word == "f":
-            faces.append([int(c.split("/")[0]) - 1 for c in rest])
-            materials.append(material)
-    return np.array(v), np.array(vt), faces, materials
 
 
 def corner_turns(points, faces):
