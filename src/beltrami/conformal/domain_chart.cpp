@@ -44,7 +44,7 @@ std::vector<Complex> points_of(const std::vector<int>& loop, const Eigen::Vector
 struct Moebius {
     Complex a, b, c, d;
     std::array<Complex, 2> operator()(Complex z) const {
-        const Complex inverse = 1.0 / (c * z + d);
+        const Complex below = c * z + d, inverse = std::conj(below) / std::norm(below);
         return {(a * z + b) * inverse, (a * d - b * c) * inverse * inverse};
     }
 };

@@ -54,13 +54,7 @@ class Search {
           taken_(n_, 0) {}
 
     std::vector<BoundaryCorner> run() {
-        parallel_for(
-            0, n_,
-            [&](int first, int last) {
-                for (int i = first; i < last; ++i)
-                    significance_[i] = fit_corner(outline_, i, reach_[i], options_).significance;
-            },
-            64);
+        fit_all();
         take();
         while (drop()) take();
         std::vector<BoundaryCorner> corners;
@@ -92,9 +86,7 @@ class Search {
             taken_[best.position] = 1;
             if (fit_corner(outline_, best.position, reach_[best.position], options_).exponent != 1)
                 keep_clear(best.position);
-            limit(best.position);
-            for (int d = -outline_.reach; d <= outline_.reach; ++d) {
-                const int i = (best.position + d + n_) % n_;
+            for (const int i : limit(best.position)) {
                 if (taken_[i] != 0) continue;
                 const double before = significance_[i];
                 significance_[i] = fit_corner(outline_, i, reach_[i], options_).significance;
@@ -103,14 +95,20 @@ class Search {
         }
     }
 
-    /// Ends windows at a corner.
-    void limit(int corner) {
+    /// Ends windows at a corner; returns where one has become shorter.
+    std::vector<int> limit(int corner) {
+        std::vector<int> shorter;
+        const auto shorten = [&](int i, int& end, int d) {
+            if (d >= end) return;
+            end = d;
+            shorter.push_back(i);
+        };
         for (int d = 1; d <= outline_.reach; ++d) {
-            Reach& before = reach_[(corner - d + n_) % n_];
-            Reach& after = reach_[(corner + d) % n_];
-            before.out = std::min(before.out, d);
-            after.in = std::min(after.in, d);
+            const int before = (corner - d + n_) % n_, after = (corner + d) % n_;
+            shorten(before, reach_[before].out, d);
+            shorten(after, reach_[after].in, d);
         }
+        return shorter;
     }
 
     /// Gives up the neighbours of a vertex where the data behave like a power: that is singular at every scale, so its
@@ -134,9 +132,19 @@ class Search {
         std::fill(reach_.begin(), reach_.end(), Reach{outline_.reach, outline_.reach});
         for (int i = 0; i < n_; ++i)
             if (taken_[i] == 1) limit(i);
-        for (int i = 0; i < n_; ++i)
-            if (taken_[i] == 0) significance_[i] = fit_corner(outline_, i, reach_[i], options_).significance;
+        fit_all();
         return true;
+    }
+
+    /// Fits windows to all that has not been decided.
+    void fit_all() {
+        parallel_for(
+            0, n_,
+            [&](int first, int last) {
+                for (int i = first; i < last; ++i)
+                    if (taken_[i] == 0) significance_[i] = fit_corner(outline_, i, reach_[i], options_).significance;
+            },
+            64);
     }
 
     const Outline& outline_;

@@ -236,8 +236,9 @@ class TiltedNorm {
             x += length * direction;
             reach = kReach * length * phi_step.cwiseAbs();
             ++end.steps;
-            const double moved = length * direction.norm(),
-                         rest = last_moved > 0 ? moved * std::min(1.0, moved / last_moved) : moved;
+            const double moved = length * direction.norm();
+            if (last_moved > 0) rate_ = std::min(1.0, moved / last_moved);
+            const double rest = rate_ * moved;
             same_hessian_ = length == 1 && moved < kSameHessian * x.norm() && (fresh || moved < kReach * last_moved);
             if (flat || rest < step * x.norm() || rest < fraction * (x - start).norm()) {
                 end.converged = true;
@@ -276,6 +277,7 @@ class TiltedNorm {
     Eigen::VectorXd by_constraint_;
     Eigen::VectorXd storage_;    ///< of dual_hessian()
     bool same_hessian_ = false;  ///< the next step takes the one at hand
+    double rate_ = 1;            ///< what a step is expected to leave, as part of it: the last two steps' ratio
 };
 
 }  // namespace
