@@ -34,7 +34,8 @@ class Map final : public Command {
             ->capture_default_str();
         app->add_option("--minimize", minimize_,
                         "K: the dilatation, by the extremal map; max: the largest |mu| of a face of this mesh, without "
-                        "folds, starting from the extremal map; parts of the boundary may be free")
+                        "folds, starting from the extremal map. Where parts of a boundary loop are free there is no "
+                        "extremal map, and K is taken as max; whole loops may be free with max only")
             ->check(CLI::IsMember({"K", "max"}))
             ->capture_default_str();
         app->add_option("--certify", certify_,
@@ -163,12 +164,37 @@ class Map final : public Command {
             throw Error(Cause::bad_option, "--minimize " + minimize_ + " belongs to --method extremal");
     }
 
+    /// Boundary vertices that are free where every loop has some that are prescribed, two at least, else 0: a loop of
+    /// which nothing is said has been forgotten, unless --minimize max allows for it.
+    static int free_parts(const Surface& source, const BoundaryCondition& boundary) {
+        if (boundary.vertices.size() < 2) return 0;
+        std::vector<char> prescribed(static_cast<std::size_t>(source.mesh.vertex_count()), 0);
+        for (const int v : boundary.vertices) prescribed[v] = 1;
+        for (const std::vector<int>& loop : source.topology.boundary_loops)
+            if (std::none_of(loop.begin(), loop.end(), [&](int v) { return prescribed[v]; })) return 0;
+        return static_cast<int>(unprescribed_boundary(boundary, source).size());
+    }
+
     MethodResult solve(const Surface& source, const BoundaryCondition& boundary, double start, Record& record) const {
         if (method_ == "extremal") {
             ExtremalOptions options;
             options.outer_loop = boundary_.outer_loop();
             homotopy_.apply(source, options);
-            if (minimize_ == "max")
+            const int free = free_parts(source, boundary);
+            if (free > 0) {
+                if (certify_)
+                    throw Error(Cause::bad_boundary,
+                                std::to_string(free) +
+                                    " boundary vertices are free, and then no map attains the least K, which is 1: "
+                                    "there is nothing to certify",
+                                "prescribe the whole boundary, or leave out --certify");
+                if (minimize_ == "K")
+                    record.warnings.push_back(
+                        std::to_string(free) +
+                        " boundary vertices are free: no map attains the least K of the shape then, which is 1; this "
+                        "is the map whose largest |mu| on this mesh is least, as with --minimize max");
+            }
+            if (minimize_ == "max" || free > 0)
                 return run_least_maximum(source, boundary, std::move(options), start, !common_.quiet, record);
             const std::optional<double> gap = certify_ ? std::optional(*certify_ / 100) : std::nullopt;
             return run_extremal(source, boundary, std::move(options), gap, start, !common_.quiet, record);

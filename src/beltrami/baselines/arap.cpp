@@ -1,7 +1,7 @@
 #include <cmath>
 #include <utility>
 
-#include <beltrami/baselines/laplacian.h>
+#include <beltrami/maps/laplacian.h>
 #include <beltrami/baselines/start.h>
 #include <beltrami/mesh/error.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <beltrami/baselines/laplacian.h>
+#include <beltrami/maps/laplacian.h>
 #include <beltrami/operators/surface.h>
 
 namespace beltrami::detail {

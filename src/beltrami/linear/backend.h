@@ -20,6 +20,8 @@ class CholeskyBackend {
     virtual void solve_roughly(const Eigen::MatrixXd& rhs, Eigen::MatrixXd& solution) { solve(rhs, solution); }
 };
 
-std::unique_ptr<CholeskyBackend> make_backend(const CholeskyBackend::Matrix& lower, int expected_factorizations);
+/// See SymmetricSolver.
+std::unique_ptr<CholeskyBackend> make_backend(const CholeskyBackend::Matrix& lower, int expected_factorizations,
+                                              int block);
 
 }  // namespace beltrami::detail

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <new>
 #include <string>
+#include <vector>
 
 #include <beltrami/linear/backend.h>
 #include <beltrami/linear/dense.h>
@@ -139,16 +140,22 @@ constexpr int kMetisPaysFrom = 16;
 
 class CholmodBackend final : public CholeskyBackend {
   public:
-    CholmodBackend(const Matrix& lower, int expected_factorizations) {
+    CholmodBackend(const Matrix& lower, int expected_factorizations, int block) {
         use_one_blas_thread();
         cholmod_start(&common_);
         common_.print = 0;
         common_.nmethods = 1;
-        common_.method[0].ordering = expected_factorizations >= kMetisPaysFrom ? CHOLMOD_METIS : CHOLMOD_AMD;
         common_.postorder = 1;
         common_.final_ll = 1;
         cholmod_sparse view = view_of(lower);
-        factor_ = cholmod_analyze(&view, &common_);
+        if (block == 1) {
+            common_.method[0].ordering = expected_factorizations >= kMetisPaysFrom ? CHOLMOD_METIS : CHOLMOD_AMD;
+            factor_ = cholmod_analyze(&view, &common_);
+        } else {
+            std::vector<int> order = order_of_blocks(lower, block, expected_factorizations >= kMetisPaysFrom);
+            common_.method[0].ordering = CHOLMOD_GIVEN;
+            factor_ = cholmod_analyze_p(&view, order.data(), nullptr, 0, &common_);
+        }
         if (!factor_) fail("the symbolic analysis of a sparse system failed");
     }
 
@@ -217,6 +224,39 @@ class CholmodBackend final : public CholeskyBackend {
                 static_cast<const int*>(factor_->Perm)};
     }
 
+    /// An ordering that keeps blocks of unknowns together: that of the graph of the blocks.
+    std::vector<int> order_of_blocks(const Matrix& lower, int block, bool by_metis) {
+        const int count = static_cast<int>(lower.rows()) / block;
+        std::vector<int> begins{0}, rows;
+        rows.reserve(static_cast<std::size_t>(lower.nonZeros() / (block * block)) + static_cast<std::size_t>(count));
+        for (int c = 0; c < count; ++c) {
+            for (Matrix::InnerIterator entry(lower, c * block); entry; ++entry) {
+                const int row = static_cast<int>(entry.row()) / block;
+                if (static_cast<int>(rows.size()) == begins.back() || rows.back() != row) rows.push_back(row);
+            }
+            begins.push_back(static_cast<int>(rows.size()));
+        }
+        cholmod_sparse graph{};
+        graph.nrow = graph.ncol = static_cast<std::size_t>(count);
+        graph.nzmax = rows.size();
+        graph.p = begins.data();
+        graph.i = rows.data();
+        graph.stype = -1;
+        graph.itype = CHOLMOD_INT;
+        graph.xtype = CHOLMOD_PATTERN;
+        graph.dtype = CHOLMOD_DOUBLE;
+        graph.sorted = 1;
+        graph.packed = 1;
+        std::vector<int> blocks(static_cast<std::size_t>(count)), order;
+        if (!(by_metis ? cholmod_metis(&graph, nullptr, 0, 1, blocks.data(), &common_)
+                       : cholmod_amd(&graph, nullptr, 0, blocks.data(), &common_)))
+            fail("the ordering of a sparse system failed");
+        order.reserve(static_cast<std::size_t>(lower.rows()));
+        for (const int b : blocks)
+            for (int i = 0; i < block; ++i) order.push_back(b * block + i);
+        return order;
+    }
+
     static cholmod_sparse view_of(const Matrix& lower) {
         cholmod_sparse view{};
         view.nrow = view.ncol = static_cast<std::size_t>(lower.rows());
@@ -254,8 +294,9 @@ class CholmodBackend final : public CholeskyBackend {
 
 }  // namespace
 
-std::unique_ptr<CholeskyBackend> make_backend(const CholeskyBackend::Matrix& lower, int expected_factorizations) {
-    return std::make_unique<CholmodBackend>(lower, expected_factorizations);
+std::unique_ptr<CholeskyBackend> make_backend(const CholeskyBackend::Matrix& lower, int expected_factorizations,
+                                              int block) {
+    return std::make_unique<CholmodBackend>(lower, expected_factorizations, block);
 }
 
 }  // namespace detail

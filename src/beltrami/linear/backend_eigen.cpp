@@ -51,7 +51,7 @@ class EigenBackend final : public CholeskyBackend {
 
 }  // namespace
 
-std::unique_ptr<CholeskyBackend> make_backend(const CholeskyBackend::Matrix& lower, int) {
+std::unique_ptr<CholeskyBackend> make_backend(const CholeskyBackend::Matrix& lower, int, int) {
     return std::make_unique<EigenBackend>(lower);
 }
 

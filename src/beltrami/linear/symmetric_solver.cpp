@@ -46,7 +46,7 @@ struct SymmetricSolver::Backend {
         Matrix shifted = lower;
         const double scale = lower.diagonal().cwiseAbs().maxCoeff();
         for (int column = 0; column < shifted.outerSize(); ++column) shifted.coeffRef(column, column) += 1e-10 * scale;
-        auto inverse = detail::make_backend(shifted, 1);
+        auto inverse = detail::make_backend(shifted, 1, 1);
         if (!(scale > 0) || !inverse->factorize(shifted)) return {};
         Eigen::MatrixXd vector(lower.rows(), 1), next;
         for (Eigen::Index i = 0; i < vector.rows(); ++i)
@@ -76,11 +76,13 @@ struct SymmetricSolver::Backend {
     }
 };
 
-SymmetricSolver::SymmetricSolver(Matrix lower, int expected_factorizations) : backend_(std::make_unique<Backend>()) {
+SymmetricSolver::SymmetricSolver(Matrix lower, int expected_factorizations, int block)
+    : backend_(std::make_unique<Backend>()) {
     lower.makeCompressed();
     backend_->lower.swap(lower);  // Eigen's sparse matrices are not moved by assignment
     backend_->expected_factorizations = expected_factorizations;
-    if (backend_->lower.rows() > 0) backend_->cholesky = detail::make_backend(backend_->lower, expected_factorizations);
+    if (backend_->lower.rows() > 0)
+        backend_->cholesky = detail::make_backend(backend_->lower, expected_factorizations, block);
 }
 
 SymmetricSolver::~SymmetricSolver() = default;

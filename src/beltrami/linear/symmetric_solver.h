@@ -21,7 +21,10 @@ class SymmetricSolver {
     /// @param lower                   lower triangle, diagonal present in every column
     /// @param expected_factorizations how often factorize() will be called: few take the cheap ordering (AMD), many the
     ///                                better one (METIS); see docs/performance.md
-    SymmetricSolver(Matrix lower, int expected_factorizations);
+    /// @param block                   so many unknowns, from a multiple of it on, occur in the same rows: they are
+    ///                                ordered as one, which takes a fraction of the time
+    /// @pre @p block divides the number of rows
+    SymmetricSolver(Matrix lower, int expected_factorizations, int block = 1);
     ~SymmetricSolver();
     SymmetricSolver(SymmetricSolver&&) noexcept;
     SymmetricSolver& operator=(SymmetricSolver&&) noexcept;

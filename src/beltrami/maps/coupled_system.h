@@ -36,9 +36,16 @@ class CoupledSystem {
     int factorization_count() const { return solver_->factorization_count(); }
 
   private:
-    std::vector<int> first_;  // #V first unknown, −1 where fixed
-    int count_ = 0;
-    std::unique_ptr<ElementAssembly> assembly_;
+    /// Where the two by two entries of a pair of vertices stand among the values of the matrix: in two columns.
+    struct Block {
+        int first, second;  ///< of the row of the real part; in the second column the diagonal's is not stored
+    };
+    Block block_at(int slot, int column) const;
+
+    std::vector<int> place_;  // #V among those that are not fixed, −1 where fixed; twice it the first unknown
+    int count_ = 0;           // of unknowns
+    std::unique_ptr<ElementAssembly> assembly_;  // of vertices
+    std::vector<int> begins_;                    // of the columns of its pattern
     std::unique_ptr<SymmetricSolver> solver_;
     Eigen::VectorXd gradient_;
 };

@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <beltrami/conformal/domain_chart.h>
 #include <beltrami/maps/beltrami_solver.h>
 #include <beltrami/maps/boundary_feasibility.h>
+#include <beltrami/maps/branch_points.h>
+#include <beltrami/maps/displacement_start.h>
 #include <beltrami/mesh/error.h>
+#include <beltrami/mesh/planar.h>
 
 namespace beltrami {
 
@@ -32,6 +36,43 @@ std::optional<SplitProblem> split_of(const Surface& source, const BoundaryCondit
     SplitProblem split = split_prescribed(source, boundary);
     if (split.split_edges == 0) return {};
     return split;
+}
+
+/// The descent from one start; steps and factorisations are added to those before.
+void descend(const Surface& surface, const BoundaryCondition& boundary, const Eigen::VectorXcd& start,
+             const LeastMaximumOptions& options, LeastMaximumMap& result) {
+    std::vector<Freedom> freedom = freedoms(boundary, surface);
+    std::replace(freedom.begin(), freedom.end(), Freedom::sliding, Freedom::fixed);
+    FoldFreeMap found = fold_free_map(surface, freedom, Eigen::VectorXcd::Zero(surface.operators.sample_count()), start,
+                                      {options.power, options.max_iterations, options.tolerance, options.progress});
+    result.start_max = distortion(surface.operators, start).max;
+    result.map = std::move(found.map);
+    result.fold_free = found.fold_free;
+    result.status = found.status;
+    result.iterations += found.iterations;
+    result.factorizations += found.factorizations;
+    result.history = std::move(found.history);
+    result.distortion = distortion(surface.operators, result.map);
+    // A mean with a finite power can prefer a map whose worst face is worse.
+    if (result.start_max < 1 && !(result.distortion.max < result.start_max)) {
+        result.map = start;
+        result.distortion = distortion(surface.operators, result.map);
+        result.fold_free = true;
+    }
+    result.branch_points = branch_points(surface, result.map);
+}
+
+bool one_to_one(const LeastMaximumMap& map) {
+    return map.fold_free && map.branch_points.empty();
+}
+
+/// Whether a map has fewer defects than another, or as few and a smaller maximum. Faces may be tiny.
+bool better(const LeastMaximumMap& a, const LeastMaximumMap& b) {
+    const auto defects = [](const LeastMaximumMap& map) {
+        return std::pair(map.distortion.flipped.size(), map.branch_points.size());
+    };
+    if (defects(a) != defects(b)) return defects(a) < defects(b);
+    return a.distortion.max < b.distortion.max;
 }
 
 }  // namespace
@@ -60,28 +101,25 @@ LeastMaximumMap least_maximum_map(const Surface& source, const BoundaryCondition
     std::optional<Surface> split_surface;
     if (result.split) split_surface = surface_of(result.split->mesh, result.split->metric);
     const Surface& surface = split_surface ? *split_surface : source;
-    if (start.size() == 0) {
+    if (result.extremal) {
+        descend(surface, boundary, start, options, result);
+    } else {
         start = conformal_start(surface, boundary);
         result.factorizations += 1;
-    }
-    result.start_max = distortion(surface.operators, start).max;
-
-    std::vector<Freedom> freedom = freedoms(boundary, surface);
-    std::replace(freedom.begin(), freedom.end(), Freedom::sliding, Freedom::fixed);
-    FoldFreeMap found = fold_free_map(surface, freedom, Eigen::VectorXcd::Zero(surface.operators.sample_count()), start,
-                                      {options.power, options.max_iterations, options.tolerance, options.progress});
-    result.map = std::move(found.map);
-    result.fold_free = found.fold_free;
-    result.status = found.status;
-    result.iterations = found.iterations;
-    result.factorizations += found.factorizations;
-    result.history = std::move(found.history);
-    result.distortion = distortion(surface.operators, result.map);
-    // A mean with a finite power can prefer a map whose worst face is worse.
-    if (result.start_max < 1 && !(result.distortion.max < result.start_max)) {
-        result.map = start;
-        result.distortion = distortion(surface.operators, result.map);
-        result.fold_free = true;
+        descend(surface, boundary, start, options, result);
+        if (!one_to_one(result) && boundary.vertices.size() > 1) {
+            LeastMaximumMap other = result;
+            const Eigen::VectorXcd places =
+                surface.in_plane() ? planar_coordinates(surface.mesh) : least_squares_conformal_map(surface, {});
+            other.factorizations += surface.in_plane() ? 1 : 2;
+            descend(surface, boundary, displacement_start(surface, places, boundary), options, other);
+            if (better(other, result)) {
+                result = std::move(other);
+            } else {
+                result.iterations = other.iterations;
+                result.factorizations = other.factorizations;
+            }
+        }
     }
     if (result.extremal) {
         // Raising p from a folded start can carry a map into another class.
@@ -103,11 +141,21 @@ LeastMaximumMap least_maximum_map(const Surface& source, const BoundaryCondition
         }
     }
     if (!result.fold_free)
-        result.warnings.push_back(found.status == FoldFreeStatus::impossible
+        result.warnings.push_back(result.status == FoldFreeStatus::impossible
                                       ? "the prescribed vertices alone force a fold"
                                       : std::to_string(result.distortion.flipped.size()) +
                                             " flipped faces could not be opened");
-    if (found.status == FoldFreeStatus::iteration_limit)
+    if (!result.branch_points.empty())
+        result.warnings.push_back(
+            "the map winds more than once around vertex " + std::to_string(result.branch_points[0]) +
+            (result.branch_points.size() > 1 ? " and " + std::to_string(result.branch_points.size() - 1) + " others"
+                                             : "") +
+            ": it is not one-to-one there; prescribe more of the boundary");
+    if (!result.distortion.degenerate.empty() && result.distortion.flipped.empty())
+        result.warnings.push_back(std::to_string(result.distortion.degenerate.size()) +
+                                  " faces are smaller than 1e-14 of the image: sizes run apart towards free parts of "
+                                  "the boundary, the more the finer the mesh; prescribe more of it");
+    if (result.status == FoldFreeStatus::iteration_limit)
         result.warnings.push_back("stopped after " + std::to_string(result.iterations) +
                                   " Newton steps before the largest |μ| settled");
     return result;

@@ -28,6 +28,9 @@ struct LeastMaximumMap {
     Distortion distortion;  ///< of map; its max is what has been made small
     double start_max = 0;   ///< largest |μ| of the start; above 1 where it was folded
     bool fold_free = false;
+    /// Vertices inside around which the map winds more than once (branch_points.h): possible only where parts of the
+    /// boundary are free.
+    std::vector<int> branch_points;
     FoldFreeStatus status = FoldFreeStatus::iteration_limit;  ///< of the last stage
     int iterations = 0;                                       ///< Newton steps
     int factorizations = 0;             ///< of #V×#V systems and larger, those of the extremal map included
@@ -44,9 +47,14 @@ struct LeastMaximumMap {
 /// with p doubling up to options.power, without ever folding. That is a function of |μ| which rises with it, so p → ∞
 /// is the min-max map; the problem is not convex and what is found is a local minimum near the start.
 ///
-/// The start is the extremal map where the whole boundary is prescribed; else the least-squares conformal map, whose
-/// folds are opened first. Boundary vertices that are not prescribed are free (natural condition). Interior vertices on
-/// lines stay where the start has them.
+/// The start is the extremal map where the whole boundary is prescribed; else the least-squares conformal map, and where
+/// that ends folded or branched also the one of displacement_start.h; the better end of the two is the result. Folds
+/// are opened first. Boundary vertices that are not prescribed are free (natural condition). Interior vertices on lines
+/// stay where the start has them.
+///
+/// Where a part of the boundary is free no extremal map exists in general: an admissible φ vanishes along it, hence
+/// everywhere, and the least K of the smooth problem is 1, which no map attains. The largest |μ| of a mesh then falls
+/// as the mesh is refined (docs/extremal-maps.md).
 /// @pre one component with a boundary; genus 0 where the whole boundary is prescribed
 /// @throw Error bad_mesh, bad_boundary, not_solved, cancelled, bad_option
 LeastMaximumMap least_maximum_map(const Surface& source, const BoundaryCondition& boundary,

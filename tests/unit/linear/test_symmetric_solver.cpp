@@ -54,6 +54,25 @@ TEST_P(Orderings, SolvesAndKeepsTheAnalysis) {
     EXPECT_EQ(solver.factorization_count(), 2);
 }
 
+TEST_P(Orderings, OrdersBlocksOfUnknownsAsOne) {
+    // Two unknowns in place of every one of the grid.
+    const SymmetricSolver::Matrix one = grid_laplacian(12, 0.1);
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int c = 0; c < one.cols(); ++c)
+        for (SymmetricSolver::Matrix::InnerIterator it(one, c); it; ++it)
+            for (int i = 0; i < 2; ++i)
+                for (int j = 0; j < 2; ++j) {
+                    const int row = 2 * static_cast<int>(it.row()) + i, column = 2 * c + j;
+                    if (row >= column) entries.emplace_back(row, column, i == j ? it.value() : 0.1 * it.value());
+                }
+    SymmetricSolver::Matrix matrix(288, 288);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    SymmetricSolver solver(matrix, GetParam(), 2);
+    solver.factorize();
+    const Eigen::MatrixXd rhs = Eigen::MatrixXd::Random(288, 3), exact = dense(matrix).ldlt().solve(rhs);
+    EXPECT_LT((solver.solve(rhs) - exact).norm(), 1e-11 * exact.norm());
+}
+
 TEST(SymmetricSolver, NamesWhatNothingConstrains) {
     // Two grids; only the first is held.
     const auto one = grid_laplacian(4, 0.0);

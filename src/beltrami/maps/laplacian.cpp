@@ -1,4 +1,4 @@
-#include <beltrami/baselines/laplacian.h>
+#include <beltrami/maps/laplacian.h>
 
 #include <utility>
 
