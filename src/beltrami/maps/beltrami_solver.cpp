@@ -120,6 +120,12 @@ struct BeltramiSolver::Implementation {
         return base;
     }
 
+    /// The mean of the vertices that are not free.
+    Complex centre_of(const Eigen::VectorXcd& base) const {
+        const auto held = std::count_if(freedom.begin(), freedom.end(), [](Freedom f) { return f != Freedom::free; });
+        return held > 0 ? base.sum() / static_cast<double>(held) : 0.0;
+    }
+
     /// −Re[(DB)^H W (D base + offset)]; real and imaginary part as two columns where they decouple.
     /// @param offset #S, or empty for 0
     Eigen::MatrixXd right_hand_side(const Eigen::VectorXcd& base, const Eigen::VectorXcd& offset = {}) const {
@@ -312,12 +318,20 @@ Eigen::VectorXcd BeltramiSolver::solve_near(const Eigen::VectorXcd& nu, const Ei
     m.nu = nu;
     m.directions = directions;
     m.assemble(extra_diagonal);
+    // The size of the solution, which measures the error, must not depend on where the image lies.
     const Eigen::VectorXcd base = m.base_of(start);
-    const Eigen::MatrixXd rhs = m.right_hand_side(base);
-    Eigen::MatrixXd y = m.pack(guess, base);
-    if (m.solver->solve_near(rhs, y, std::max(tolerance, kNearTolerance), kMostNearSteps)) return m.unpack(y, base);
-    m.factorize();
-    return m.unpack(m.solver->solve(rhs), base);
+    const Complex centre = m.centre_of(base);
+    const Eigen::VectorXcd centred = m.base_of(start.array() - centre);
+    const Eigen::MatrixXd rhs = m.right_hand_side(centred);
+    Eigen::MatrixXd y = m.pack(guess.array() - centre, centred);
+    if (!m.solver->solve_near(rhs, y, std::max(tolerance, kNearTolerance), kMostNearSteps)) {
+        m.factorize();
+        y = m.solver->solve(rhs);
+    }
+    Eigen::VectorXcd map = m.unpack(y, base);
+    for (int v = 0; v < m.operators.vertex_count; ++v)
+        if (m.freedom[v] == Freedom::free) map[v] += centre;
+    return map;
 }
 
 Eigen::VectorXcd BeltramiSolver::gradient(const Eigen::VectorXcd& f, const Eigen::VectorXcd& nu) const {

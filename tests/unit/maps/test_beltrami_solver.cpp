@@ -91,6 +91,31 @@ TEST(BeltramiSolver, SolveNearIsTheSameMap) {
     EXPECT_EQ(old.factorization_count(), 2);
 }
 
+TEST(BeltramiSolver, ANearbySolveDoesNotDependOnWhereTheImageLies) {
+    const Surface surface(test::jittered_square(24));
+    Eigen::VectorXcd nu(surface.operators.sample_count()), near = nu;
+    for (int s = 0; s < nu.size(); ++s) {
+        nu[s] = std::polar(0.3, 0.01 * s);
+        near[s] = std::polar(0.303, 0.01 * s + 0.01);
+    }
+    const BoundaryCondition boundary = test::boundary_values(surface, [](Complex z) { return z + 0.2 * z * z; });
+    const Eigen::VectorXcd values = prescribed_values(boundary, surface);
+    const std::vector<Freedom> freedom = freedoms(boundary, surface);
+    BeltramiSolver exact(surface, freedom, 1);
+    exact.factorize(near);
+    const Eigen::VectorXcd solution = exact.solve(values);
+    constexpr double tolerance = 1e-6;
+    for (const Complex shift : {Complex(0), Complex(5e3, -2e3)}) {
+        BeltramiSolver solver(surface, freedom, 2);
+        solver.factorize(nu);
+        const Eigen::VectorXcd moved = values.array() + shift, guess = solver.solve(moved);
+        const Eigen::VectorXcd found = solver.solve_near(near, moved, guess, tolerance);
+        EXPECT_EQ(solver.factorization_count(), 1);
+        EXPECT_LT((found.array() - shift - solution.array()).abs().maxCoeff(), 10 * tolerance) << shift;
+        for (const int v : boundary.vertices) EXPECT_EQ(found[v], moved[v]);
+    }
+}
+
 TEST(BeltramiSolver, AnOffsetIsMadeUpFor) {
     // With the offset (∂̄ − ν∂)q the sum f + q is the map that has its boundary values, whatever q is.
     for (const Mesh& mesh : {test::jittered_square(8), test::mixed_square(7)}) {
