@@ -1,6 +1,6 @@
 // Seconds of one harmonic map and of the extremal map of the same mesh, their ratio, and the peak memory of both.
 //
-//     bench_extremal [TRIANGLES...]        default: 10000 100000 1000000
+//     bench_extremal [TRIANGLES...]        default: 10000 100000 1000000 2000000
 //
 // Every measurement runs in a process of its own, so that peak memory is its own. Times are those of the JSON record:
 // harmonic = operators, ordering, analysis, assembly, factorisation and solution, median of three; extremal =
@@ -28,6 +28,8 @@
 #include <beltrami/maps/beltrami_solver.h>
 #include <beltrami/maps/timing.h>
 #include <beltrami/mesh/parallel.h>
+
+#include "support/arguments.h"
 
 namespace {
 
@@ -139,15 +141,16 @@ void measure_pinned(const std::filesystem::path& folder) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    std::vector<int> sizes;
-    for (int i = 1; i < argc; ++i) sizes.push_back(std::stoi(argv[i]));
-    if (sizes.empty()) sizes = {10'000, 100'000, 1'000'000};
+    const std::vector<int> sizes =
+        bench::numbers_of(argc, argv, 100, {10'000, 100'000, 1'000'000, 2'000'000}, "bench_extremal [TRIANGLES...]");
+    std::string growth;
     fmt::print(
         "{}\n\n| case | triangles | harmonic s | extremal s | ratio | iterations | factorisations | k | flips | "
         "harmonic MiB | extremal MiB | ratio |\n"
         "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n",
         linear_backend());
-    for (const std::string name : {"lobes", "bump"})
+    for (const std::string name : {"lobes", "bump"}) {
+        std::vector<Measurement> all;
         for (const int size : sizes) {
             const Measurement harmonic = in_child([&] {
                 const Surface surface(mesh_of(name, size));
@@ -175,7 +178,14 @@ int main(int argc, char** argv) {
                        harmonic.peak_kib / 1024, extremal.peak_kib / 1024,
                        static_cast<double>(extremal.peak_kib) / static_cast<double>(harmonic.peak_kib));
             std::fflush(stdout);
+            all.push_back(extremal);
         }
+        if (all.size() > 1)
+            growth += fmt::format("{}: time grows like n^{:.2f} from the first mesh to the last\n", name,
+                                  std::log(all.back().seconds / all.front().seconds) /
+                                      std::log(static_cast<double>(all.back().faces) / all.front().faces));
+    }
+    fmt::print("\n{}", growth);
     const char* folder = std::getenv("BELTRAMI_MESHES");
     if (folder && std::filesystem::exists(std::filesystem::path(folder) / "mcqc3d_planar_src.obj"))
         measure_pinned(folder);

@@ -15,6 +15,8 @@
 
 #include <beltrami/beltrami.h>
 
+#include "support/arguments.h"
+
 namespace {
 
 using namespace beltrami;
@@ -37,9 +39,8 @@ std::vector<Complex> images_at(const Surface& surface, bool with_handle, double 
 }  // namespace
 
 int main(int argc, char** argv) {
-    std::vector<int> sizes;
-    for (int i = 1; i < argc; ++i) sizes.push_back(std::stoi(argv[i]));
-    if (sizes.empty()) sizes = {5'000, 20'000};
+    const std::vector<int> sizes =
+        bench::numbers_of(argc, argv, 100, {5'000, 20'000}, "bench_interactive [TRIANGLES...]");
     constexpr int kSteps = 60, kIterations = 3;
     fmt::print(
         "| drag | triangles | updates a second | slowest update, ms | flips, all updates | k of the last update | k "
