@@ -162,8 +162,7 @@ TabulatedSpace one_form_products(const Surface& source) {
     }
     const Eigen::VectorXd scales = values.head(dimension).cwiseSqrt().cwiseInverse();
     return TabulatedSpace(complex_product(
-        products,
-        (eigen.vectors.rowwise().reverse().leftCols(dimension) * scales.asDiagonal()).cast<Complex>()));
+        products, (eigen.vectors.rowwise().reverse().leftCols(dimension) * scales.asDiagonal()).cast<Complex>()));
 }
 
 }  // namespace beltrami
