@@ -2,11 +2,10 @@
 
 // Distances between spaces of functions known at points.
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <cmath>
 #include <vector>
 
+#include <beltrami/linear/decomposition.h>
 #include <beltrami/mesh/mesh.h>
 
 namespace beltrami::test {
@@ -16,13 +15,13 @@ inline Eigen::MatrixXd orthonormal(const Eigen::MatrixXcd& values, const Eigen::
     Eigen::MatrixXd columns(2 * values.rows(), values.cols());
     const Eigen::VectorXd roots = weights.cwiseSqrt();
     columns << roots.asDiagonal() * values.real(), roots.asDiagonal() * values.imag();
-    return columns.householderQr().householderQ() * Eigen::MatrixXd::Identity(columns.rows(), columns.cols());
+    return orthonormal_columns(columns);
 }
 
 /// Sine of the largest principal angle between real combinations of two sets of columns.
 inline double angle_between(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b, const Eigen::VectorXd& weights) {
     const Eigen::MatrixXd A = orthonormal(a, weights), B = orthonormal(b, weights);
-    return Eigen::JacobiSVD<Eigen::MatrixXd>(A - B * (B.transpose() * A)).singularValues()[0];
+    return singular_values(A - B * (B.transpose() * A))[0];
 }
 
 /// Areas, falling to 0 within a distance of the marks: the square of 1/z is not integrable.

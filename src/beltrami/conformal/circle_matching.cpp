@@ -1,13 +1,13 @@
 #include <beltrami/conformal/circle_matching.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <string>
 
+#include <beltrami/linear/decomposition.h>
 #include <beltrami/mesh/error.h>
 
 namespace beltrami {
@@ -56,8 +56,8 @@ Fit fit(const Form& form) {
     const Form half = triangle.solve(signs);
     const Form reduced = triangle.solve(half.transpose());
     // 1/λ of the pencil (form, signs): the largest belongs to the least positive λ.
-    const Eigen::SelfAdjointEigenSolver<Form> solver(0.5 * (reduced + reduced.transpose()));
-    Eigen::Vector4d x = lower.transpose().triangularView<Eigen::Upper>().solve(solver.eigenvectors().col(3));
+    const SymmetricEigen eigen = symmetric_eigen(0.5 * (reduced + reduced.transpose()));
+    Eigen::Vector4d x = lower.transpose().triangularView<Eigen::Upper>().solve(eigen.vectors.col(3));
     x /= std::sqrt(x.dot(signs * x));
     const Complex alpha(x[0], x[1]), beta(x[2], x[3]);
     return {{std::arg(alpha * alpha), -beta / alpha}, std::max(0.0, x.dot(form * x))};

@@ -3,7 +3,6 @@
 #include <memory>
 
 #include <beltrami/conformal/chart.h>
-#include <beltrami/linear/dense.h>
 
 namespace beltrami {
 
@@ -36,13 +35,9 @@ class DifferentialSpace {
     /// T: #generators × size(); null where the generators are the basis.
     virtual const Eigen::MatrixXcd* transform() const { return nullptr; }
     /// Values of one combination. @param coefficients size() of them
-    virtual Eigen::VectorXcd combination(const ChartPoints& points, const Eigen::VectorXcd& coefficients) const {
-        return generators(points) * of_generators(coefficients);
-    }
+    virtual Eigen::VectorXcd combination(const ChartPoints& points, const Eigen::VectorXcd& coefficients) const;
     /// Σ_s weights(s, column) φ_j(s) for every function j: size() × #columns.
-    virtual Eigen::MatrixXcd pair(const ChartPoints& points, const Eigen::MatrixXcd& weights) const {
-        return from_generators(generators(points).transpose() * weights);
-    }
+    virtual Eigen::MatrixXcd pair(const ChartPoints& points, const Eigen::MatrixXcd& weights) const;
     /// Whether combination() and pair() are as cheap as reading stored values of the generators, and run on all
     /// threads.
     virtual bool quick() const { return false; }
@@ -54,17 +49,11 @@ class DifferentialSpace {
     virtual bool preliminary() const { return false; }
 
     /// Values of every basis function: #points × size().
-    Eigen::MatrixXcd evaluate(const ChartPoints& points) const {
-        return transform() ? complex_product(generators(points), *transform()) : generators(points);
-    }
+    Eigen::MatrixXcd evaluate(const ChartPoints& points) const;
     /// T c: the coefficients of the generators.
-    Eigen::VectorXcd of_generators(const Eigen::VectorXcd& coefficients) const {
-        return transform() ? Eigen::VectorXcd(*transform() * coefficients) : coefficients;
-    }
+    Eigen::VectorXcd of_generators(const Eigen::VectorXcd& coefficients) const;
     /// Tᵀ g: values of the basis from values of the generators, of anything linear in the functions.
-    Eigen::MatrixXcd from_generators(const Eigen::MatrixXcd& of_generators) const {
-        return transform() ? Eigen::MatrixXcd(transform()->transpose() * of_generators) : of_generators;
-    }
+    Eigen::MatrixXcd from_generators(const Eigen::MatrixXcd& of_generators) const;
 };
 
 }  // namespace beltrami

@@ -1,8 +1,6 @@
 #include <beltrami/differentials/laurent_space.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +8,7 @@
 #include <sstream>
 
 #include <beltrami/differentials/dimension.h>
+#include <beltrami/linear/decomposition.h>
 #include <beltrami/linear/dense.h>
 #include <beltrami/mesh/error.h>
 #include <beltrami/mesh/parallel.h>
@@ -162,11 +161,11 @@ std::vector<char> orthonormalise(Eigen::MatrixXcd& A, Eigen::MatrixXcd& R) {
         A = std::move(Q);
         return kept;
     }
-    const Eigen::HouseholderQR<Eigen::MatrixXcd> qr(A);
-    R = qr.matrixQR().topRows(n).triangularView<Eigen::Upper>();
+    ComplexQr qr = complex_qr(A);
+    A = std::move(qr.Q);
+    R = std::move(qr.R);
     for (Eigen::Index j = 0; j < n; ++j)
         kept[static_cast<std::size_t>(j)] = std::abs(R(j, j)) > kDependent * lengths[j];
-    A = qr.householderQ() * Eigen::MatrixXcd::Identity(A.rows(), n);
     return kept;
 }
 
@@ -190,12 +189,9 @@ Singular smallest_singular(const Eigen::MatrixXd& A, Eigen::Index count) {
                 0.6180339887498949 * static_cast<double>((i + 1) * (j + 1)) + 0.1 * static_cast<double>(i);
             block(i, j) = turns - std::floor(turns) - 0.5;
         }
-    for (int step = 0; step < kInverseSteps; ++step) {
-        const Eigen::HouseholderQR<Eigen::MatrixXd> qr(factor.solve(block));
-        block = qr.householderQ() * Eigen::MatrixXd::Identity(n, width);
-    }
-    const Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::HouseholderQRPreconditioner> svd(A * block, Eigen::ComputeThinV);
-    return {svd.singularValues().reverse().head(count), block * svd.matrixV().rowwise().reverse().leftCols(count)};
+    for (int step = 0; step < kInverseSteps; ++step) block = orthonormal_columns(factor.solve(block));
+    const auto [values, vectors] = right_singular(A * block);
+    return {values.reverse().head(count), block * vectors.rowwise().reverse().leftCols(count)};
 }
 
 Eigen::VectorXd roots_of_weights(const BoundaryPoints& points) {
@@ -340,8 +336,7 @@ bool LaurentSpace::find(int degree, int dimension) {
     const Eigen::MatrixXd residuals = imaginary_parts(space, between).leftCols(dimension);
     Eigen::MatrixXd both(2 * space.rows(), dimension);
     both << space.real(), space.imag();
-    const double largest = Eigen::JacobiSVD<Eigen::MatrixXd>(residuals).singularValues()[0],
-                 least = Eigen::JacobiSVD<Eigen::MatrixXd>(both).singularValues()[dimension - 1];
+    const double largest = singular_values(residuals)[0], least = singular_values(both)[dimension - 1];
     fit_.degree = degree;
     fit_.residual = least > 0 ? largest / least : INFINITY;
     fit_.next = singular[dimension];

@@ -1,11 +1,11 @@
 #include <beltrami/differentials/one_form_squares.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 
 #include <beltrami/differentials/dimension.h>
+#include <beltrami/linear/decomposition.h>
 #include <beltrami/linear/dense.h>
 #include <beltrami/linear/element_assembly.h>
 #include <beltrami/mesh/error.h>
@@ -149,8 +149,8 @@ TabulatedSpace one_form_products(const Surface& source) {
         }
     Eigen::MatrixXd both(2 * samples, count);
     both << areas.cwiseSqrt().asDiagonal() * products.real(), areas.cwiseSqrt().asDiagonal() * products.imag();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram_lower(both));
-    const Eigen::VectorXd values = eigen.eigenvalues().reverse();
+    const SymmetricEigen eigen = symmetric_eigen(gram_lower(both));
+    const Eigen::VectorXd values = eigen.values.reverse();
     if (values.size() < dimension || !(values[dimension - 1] > kLeastEigenvalue * values[0])) {
         std::ostringstream listed;
         listed.precision(2);
@@ -162,8 +162,7 @@ TabulatedSpace one_form_products(const Surface& source) {
     }
     const Eigen::VectorXd scales = values.head(dimension).cwiseSqrt().cwiseInverse();
     return TabulatedSpace(complex_product(
-        products,
-        (eigen.eigenvectors().rowwise().reverse().leftCols(dimension) * scales.asDiagonal()).cast<Complex>()));
+        products, (eigen.vectors.rowwise().reverse().leftCols(dimension) * scales.asDiagonal()).cast<Complex>()));
 }
 
 }  // namespace beltrami

@@ -1,6 +1,5 @@
 #include <beltrami/differentials/projected_space.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +8,7 @@
 
 #include <beltrami/differentials/differential_smoothing.h>
 #include <beltrami/differentials/dimension.h>
+#include <beltrami/linear/decomposition.h>
 #include <beltrami/linear/dense.h>
 #include <beltrami/mesh/error.h>
 #include <beltrami/mesh/parallel.h>
@@ -217,8 +217,8 @@ ProjectedSpace projected_space(const Surface& source, const Chart& chart, const 
             const double distance = std::norm(chart.positions[s] - chart.vertices[v]);
             areas[s] *= distance / (distance + tame);
         }
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(real_gram(phi, areas));
-    result.eigenvalues = eigen.eigenvalues().reverse();
+    const SymmetricEigen eigen = symmetric_eigen(real_gram(phi, areas));
+    result.eigenvalues = eigen.values.reverse();
     const Eigen::VectorXd& values = result.eigenvalues;
     const double last = values.size() >= dimension ? values[dimension - 1] : 0.0,
                  next = values.size() > dimension ? values[dimension] : 0.0;
@@ -237,7 +237,7 @@ ProjectedSpace projected_space(const Surface& source, const Chart& chart, const 
 
     const Eigen::VectorXd scales = values.head(dimension).cwiseSqrt().cwiseInverse();
     phi = complex_product(
-        phi, (eigen.eigenvectors().rowwise().reverse().leftCols(dimension) * scales.asDiagonal()).cast<Complex>());
+        phi, (eigen.vectors.rowwise().reverse().leftCols(dimension) * scales.asDiagonal()).cast<Complex>());
     for (int s = 0; s < samples; ++s) phi.row(s) *= chart.derivatives[s] * chart.derivatives[s];
     result.space = TabulatedSpace(std::move(phi));
     return result;

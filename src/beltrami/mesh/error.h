@@ -24,10 +24,7 @@ class Error : public std::runtime_error {
     /// @param sentence  what is wrong and where, in plain words, without a final full stop
     /// @param next_step what the user can do about it; may be empty
     /// @param indices   offending vertices, faces or lines, counted from 0; may be empty
-    Error(Cause cause, const std::string& sentence, const std::string& next_step = {}, std::vector<int> indices = {})
-        : std::runtime_error(next_step.empty() ? sentence : sentence + ": " + next_step),
-          cause_(cause),
-          indices_(std::move(indices)) {}
+    Error(Cause cause, const std::string& sentence, const std::string& next_step = {}, std::vector<int> indices = {});
 
     Cause cause() const { return cause_; }
     const std::vector<int>& indices() const { return indices_; }

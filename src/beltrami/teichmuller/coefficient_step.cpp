@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include <beltrami/linear/dense.h>
 #include <beltrami/mesh/parallel.h>
 #include <beltrami/teichmuller/differential_quadrature.h>
 
