@@ -38,6 +38,7 @@ class DistanceCommand final : public Command {
         if (!common_.report.empty())
             throw Error(Cause::bad_option, "distance has no map to report on", "use --picture");
         std::vector<NamedFile> inputs;
+        inputs.reserve(meshes_.size());
         for (const std::string& mesh : meshes_) inputs.push_back({"MESH", mesh});
         common_.check_files(inputs, {{"--picture", picture_}});
         Record record;

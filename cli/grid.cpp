@@ -52,6 +52,7 @@ class Grid final : public Command {
             ->check(CLI::Range(1, 1000000))
             ->capture_default_str();
         std::vector<std::string> lines;
+        lines.reserve(kLines.size());
         for (const auto& [name, kind] : kLines) lines.push_back(name);
         app->add_option("--lines", lines_,
                         "auto: log-polar on a ring between two circles of one centre, else rectangular, along the "

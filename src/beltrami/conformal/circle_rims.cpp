@@ -151,6 +151,7 @@ void hold_three(CircleRim& outer) {
 void project(const std::vector<CircleRim>& rims, Eigen::VectorXd& unknowns) {
     for (const CircleRim& rim : rims) {
         const int n = rim.size();
+        if (n == 0) continue;
         int start = 0;  // of a chain
         while (start < n && rim.tied[(start + n - 1) % n]) ++start;
         start %= n;

@@ -231,6 +231,7 @@ void slide_on_circles(const Surface& surface, const BeltramiSolver& dirichlet, i
     hold_three(rims[outer_loop]);
     const RimEnergy rim_energy(surface, dirichlet, rims);
     std::vector<CircleKernel> kernels;
+    kernels.reserve(rims.size());
     for (const CircleRim& rim : rims) kernels.emplace_back(rim);
     const int circles = rim_energy.rim_vertices(), unknowns = circles + 3 * static_cast<int>(map.holes.size());
 

@@ -41,14 +41,18 @@ Complex area_centre(const std::vector<Complex>& polygon) {
     return polygon[0] + (total != 0 ? moment / total : 0);
 }
 
+/// Grids that are searched, each a fifth of the one before.
+constexpr int kLevels = 5;
+
 /// Grid search with shrinking cells, in a frame tied to the polygon.
 Complex deepest(const std::vector<Complex>& polygon, Complex start) {
     Complex axis = 0;
     for (const Complex z : polygon)
         if (std::abs(z - start) > std::abs(axis)) axis = z - start;
     Complex best = start;
-    double best_depth = depth(polygon, start);
-    for (double half = std::abs(axis); half > 1e-3 * std::abs(axis); half *= 0.2) {
+    if (axis == 0.0) return best;
+    double best_depth = depth(polygon, start), half = std::abs(axis);
+    for (int level = 0; level < kLevels; ++level, half *= 0.2) {
         const Complex middle = best, step = axis / std::abs(axis) * (half / 8);
         for (int i = -8; i <= 8; ++i)
             for (int j = -8; j <= 8; ++j) {

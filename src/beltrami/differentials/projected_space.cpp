@@ -124,6 +124,7 @@ std::vector<std::pair<Complex, Complex>> pairs_of_poles(const Chart& chart, cons
     for (int i = 0; i < n; ++i) {
         if (i < holes) pairs.push_back({poles[i], poles[i]});
         std::vector<int> others;
+        others.reserve(static_cast<std::size_t>(n));
         for (int j = 0; j < n; ++j)
             if (j != i) others.push_back(j);
         if (n > kAllPairs) {
