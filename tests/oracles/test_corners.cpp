@@ -59,6 +59,28 @@ TEST(Corners, TheHalfPlaneMapIsNotOfTeichmuellerType) {
     }
 }
 
+// The source's chart is far from conformal at 48 corners, but with conformal angles the problem is one of the round
+// disk and φ smooth: K is that of the disk's boundary values e^{i(t + 0.6 sin t)}.
+TEST(Corners, TheGearIsMappedLikeTheDisk) {
+    const Mesh round = disk(40);
+    BoundaryCondition boundary;
+    const Topology shape = topology(round);
+    for (const int v : shape.boundary_loops[0]) {
+        const double t = std::arg(bench::place(round, v));
+        boundary.pin(v, std::polar(1.0, t + 0.6 * std::sin(t)));
+    }
+    const double K = extremal_map(round, boundary).K;
+    for (const auto& [edge_length, gap] : {std::pair(0.05, 0.012), std::pair(0.03, 0.006)}) {
+        const Solved solved = solve(bench::gear_to_disk(edge_length));
+        expect_sound(solved.result);
+        EXPECT_EQ(solved.result.termination, Termination::converged);
+        EXPECT_LE(solved.result.iterations, 10);
+        EXPECT_NEAR(solved.result.K, K, 1.5e-3);
+        EXPECT_LE(solved.result.K_lower, K);
+        EXPECT_LT(solved.result.K / solved.result.K_lower, 1 + gap);
+    }
+}
+
 struct Shape {
     const char* name;
     bench::Problem (*make)(double);
@@ -108,7 +130,6 @@ TEST_P(JaggedShapes, AreOneToOneOrSayWhyNotExtremal) {
 }
 INSTANTIATE_TEST_SUITE_P(Corners, JaggedShapes,
                          testing::Values(Shape{"notched_disk", bench::notched_disk, 0.05, 0, 0.02},
-                                         Shape{"gear_to_disk", bench::gear_to_disk, 0.05, 0, 0.02},
                                          Shape{"disk_to_gear", bench::disk_to_gear, 0.05, 0, 0.02}),
                          [](const auto& parameter) { return parameter.param.name; });
 

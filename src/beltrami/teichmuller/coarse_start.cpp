@@ -14,8 +14,6 @@ namespace beltrami {
 namespace {
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
-/// Below so many samples the coarse problem would cost as much as it saves.
-constexpr int kWorthFrom = 6'000;
 /// The bracket of a smooth problem, as part of K, times the number of triangles: less than this. (.7 for a bump, but 4
 /// for four points of a disk, where leaving the poles out would cost .35 % of K.)
 constexpr double kTightPerTriangle = 2;
@@ -57,8 +55,8 @@ CircleValues circle_values(const Surface& source, const BoundaryCondition& bound
 }  // namespace
 
 CoarseStart coarse_start(const Surface& source, const BoundaryCondition& boundary, const Chart& chart, double phase,
-                         const ExtremalOptions& options) {
-    if (source.operators.sample_count() < kWorthFrom) return {};
+                         const ExtremalOptions& options, int least_samples) {
+    if (source.operators.sample_count() < least_samples) return {};
     const CircleValues values = circle_values(source, boundary, chart);
     if (values.angle.empty()) return {};
 

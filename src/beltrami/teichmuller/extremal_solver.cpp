@@ -102,6 +102,7 @@ struct ExtremalSolver::Implementation {
     int earlier_iterations = 0;             // from a start that was given up
     bool smooth = true;                     // φ has no singularities
     std::optional<Singularities> withheld;  // that φ may have but need not
+    std::optional<Chart> instead;           // for φ that needs those
     bool evened = false, folds_removed = false;
 
     Implementation(const Surface& given, const BoundaryCondition& b, const ExtremalOptions& o, PreparedProblem p)
@@ -112,16 +113,15 @@ struct ExtremalSolver::Implementation {
           problem(source, boundary, kExpectedFactorizations) {
         if (prepared.split) warnings.push_back(prepared.split_warning("prescribed"));
         corners = find_corners(source, boundary);
-        Chart chart = chart_of_problem(source, boundary, corners, options.outer_loop, problem.solver());
-        other_factorizations += chart.factorizations;
-        warnings.insert(warnings.end(), chart.warnings.begin(), chart.warnings.end());
-        Singularities singularities = singularities_of(source, chart, boundary, corners, problem.harmonic());
-        held_alone = held_vertices(source, chart, boundary, problem.harmonic());
-        problem.set_chart(std::move(chart));
-        smooth = singularities.empty();
-        // Corners that only a fine mesh would resolve need no poles; that they do not, the coarse problem shows.
-        if (singularities.only_corners() && has_plain_start() && outline_is_round()) {
-            CoarseStart coarse = coarse_start(source, boundary, problem.chart(), problem.phase(), options);
+        ProblemChart charts = chart_of_problem(source, boundary, corners, options.outer_loop, problem.solver());
+        instead = std::move(charts.instead);
+        Singularities singularities = take_chart(std::move(charts.chart), problem.harmonic());
+        // Corners that only a fine mesh would resolve need no poles; that they do not, the coarse problem shows. In a
+        // chart far from conformal poles at corners would see its errors as dilatation.
+        if ((singularities.only_corners() || (instead && singularities.empty())) && has_plain_start() &&
+            outline_is_round()) {
+            CoarseStart coarse = coarse_start(source, boundary, problem.chart(), problem.phase(), options,
+                                              instead ? 0 : kCoarseStartPays);
             if (coarse.tight) {
                 smooth = true;
                 state = std::move(coarse.state);
@@ -129,10 +129,27 @@ struct ExtremalSolver::Implementation {
                 singularities = {};
             }
         }
+        if (instead && !withheld) singularities = take_instead(problem.harmonic());
+        other_factorizations += problem.chart().factorizations;
+        warnings.insert(warnings.end(), problem.chart().warnings.begin(), problem.chart().warnings.end());
         problem.set_singularities(std::move(singularities), options.cluster_count);
         if (source.topology.boundary_loops.size() > 1)
             paths = loop_paths(source, problem.chart().vertices, options.outer_loop);
         choose_start();
+    }
+
+    /// Makes a chart that of the problem; returns where φ may be singular in it.
+    Singularities take_chart(Chart chart, const Eigen::VectorXcd& at) {
+        Singularities result = singularities_of(source, chart, boundary, corners, at);
+        held_alone = held_vertices(source, chart, boundary, at);
+        problem.set_chart(std::move(chart));
+        smooth = result.empty();
+        return result;
+    }
+    Singularities take_instead(const Eigen::VectorXcd& at) {
+        Chart chart = std::move(*instead);
+        instead.reset();
+        return take_chart(std::move(chart), at);
     }
 
     /// Whether enough edges run from a corner to the next ones of its loop for its angles and speeds to mean something:
@@ -293,6 +310,7 @@ struct ExtremalSolver::Implementation {
 
     /// Lets φ have its singularities after all.
     void take_poles() {
+        if (instead) *withheld = take_instead(map);
         problem.set_singularities(std::move(*withheld), options.cluster_count);
         withheld.reset();
         smooth = false;

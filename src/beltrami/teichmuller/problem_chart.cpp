@@ -53,17 +53,18 @@ bool nothing_inside(const Surface& source, const BoundaryCondition& boundary) {
 
 }  // namespace
 
-Chart chart_of_problem(const Surface& source, const BoundaryCondition& boundary,
-                       const std::vector<BoundaryCorner>& corners, int outer_loop, const BeltramiSolver& solver) {
+ProblemChart chart_of_problem(const Surface& source, const BoundaryCondition& boundary,
+                              const std::vector<BoundaryCorner>& corners, int outer_loop,
+                              const BeltramiSolver& solver) {
     const bool own_coordinates = outer_loop == 0 && source.in_plane();
     if (own_coordinates && few_sharp_corners(corners, outer_loop) && !outer_loop_is_round(source))
-        return plane_chart(source);
-    Chart chart = domain_chart(source, outer_loop, nothing_inside(source, boundary) ? &solver : nullptr);
-    if (chart.exact || !own_coordinates || !far_from_conformal(source, chart)) return chart;
-    const int factorizations = chart.factorizations;
-    chart = plane_chart(source);
-    chart.factorizations = factorizations;
-    return chart;
+        return {plane_chart(source), {}};
+    ProblemChart result{domain_chart(source, outer_loop, nothing_inside(source, boundary) ? &solver : nullptr), {}};
+    if (!result.chart.exact && own_coordinates && far_from_conformal(source, result.chart)) {
+        result.instead = plane_chart(source);
+        result.instead->factorizations = result.chart.factorizations;
+    }
+    return result;
 }
 
 }  // namespace beltrami

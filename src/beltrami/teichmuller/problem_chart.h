@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <beltrami/conformal/chart.h>
@@ -8,13 +9,19 @@
 
 namespace beltrami {
 
+struct ProblemChart {
+    Chart chart;
+    /// A plane source's own coordinates, where the chart is far from conformal: φ that has poles at corners does better
+    /// in these, one that is smooth in the canonical domain does not.
+    std::optional<Chart> instead;
+};
+
 /// The chart in which φ of a problem is built: the canonical domain of the source, or a plane source's own coordinates
-/// where poles in these do better: its outer loop is a polygon of few sharp corners, or the canonical chart is far from
-/// conformal.
+/// where its outer loop is a polygon of few sharp corners.
 /// @param corners of the source and its boundary values
 /// @param solver  of the problem, factorised for the coefficient 0
 /// @throw Error as domain_chart
-Chart chart_of_problem(const Surface& source, const BoundaryCondition& boundary,
-                       const std::vector<BoundaryCorner>& corners, int outer_loop, const BeltramiSolver& solver);
+ProblemChart chart_of_problem(const Surface& source, const BoundaryCondition& boundary,
+                              const std::vector<BoundaryCorner>& corners, int outer_loop, const BeltramiSolver& solver);
 
 }  // namespace beltrami

@@ -185,6 +185,24 @@ std::vector<int> straighten(const Surface& source, QuadraticMap& map) {
     return bad;
 }
 
+std::vector<int> mend(const Surface& source, QuadraticMap& map, const Eigen::VectorXcd& other) {
+    const QuadraticMap plain = straight(source, other);
+    for (;;) {
+        std::vector<int> bad = straighten(source, map);
+        bool moved = false;
+        for (const int f : bad) {
+            const auto take = [&](int point) {
+                moved = moved || map[point] != plain[point];
+                map[point] = plain[point];
+            };
+            for (const int v : source.operators.stencil(f)) take(v);
+            for (int j = 0; j < 3; ++j) take(edge_point(source, f, j));
+        }
+        // Where nothing moves the other map is turned over itself.
+        if (!moved) return bad;
+    }
+}
+
 ReichStrebel reich_strebel_quadratic(const Surface& source, const Chart& chart, const DifferentialSpace& space,
                                      const Eigen::VectorXcd& coefficients, const QuadraticMap& map) {
     require_triangles(source);

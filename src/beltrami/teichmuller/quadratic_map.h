@@ -50,6 +50,13 @@ class QuadraticStep {
 /// @return triangles that remain with a determinant not proved positive
 std::vector<int> straighten(const Surface& source, QuadraticMap& map);
 
+/// The same, and where triangles remain, takes the images that another map has at their corners, straight between
+/// them, until there are none: the rest of @p map stays. At a corner of the boundary values a quadratic solution may
+/// fold where a piecewise linear one has been opened.
+/// @param other #V images of a piecewise linear map with the same boundary values
+/// @return triangles that remain, none if @p other turns none over
+std::vector<int> mend(const Surface& source, QuadraticMap& map, const Eigen::VectorXcd& other);
+
 /// The Reich-Strebel integrals of a piecewise quadratic map, with its coefficient at every quadrature point.
 /// @return not valid if a determinant is not proved positive
 ReichStrebel reich_strebel_quadratic(const Surface& source, const Chart& chart, const DifferentialSpace& space,

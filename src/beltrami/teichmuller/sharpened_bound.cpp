@@ -20,12 +20,15 @@ struct Level {
     Surface surface;
     BoundaryCondition boundary;
     Eigen::VectorXcd chart;
+    Eigen::VectorXcd map;
 };
 
-Level subdivided(const Surface& surface, const BoundaryCondition& boundary, const Eigen::VectorXcd& chart) {
+Level subdivided(const Surface& surface, const BoundaryCondition& boundary, const Eigen::VectorXcd& chart,
+                 const Eigen::VectorXcd& map) {
     RefinedProblem fine = refined_problem(surface, boundary);
-    Eigen::VectorXcd places = fine.interpolated(chart);
-    return {std::move(fine.surface), std::move(fine.boundary), std::move(places)};
+    Eigen::VectorXcd places = fine.interpolated(chart), images = map;
+    if (map.size()) images = fine.interpolated(map);
+    return {std::move(fine.surface), std::move(fine.boundary), std::move(places), std::move(images)};
 }
 
 }  // namespace
@@ -35,12 +38,12 @@ SharpenedBound sharpened_bound(const Surface& source, const BoundaryCondition& b
                                const SharpenedBoundOptions& options) {
     SharpenedBound result;
     std::optional<Level> level;
-    if (!all_triangles(source.mesh)) level = Level{cut_into_triangles(source), boundary, chart.vertices};
+    if (!all_triangles(source.mesh)) level = Level{cut_into_triangles(source), boundary, chart.vertices, options.map};
     for (int i = 0; i < options.subdivisions; ++i) {
         const int faces = (level ? level->surface : source).mesh.face_count();
         if (faces > options.most_triangles / 4) break;
-        level = level ? subdivided(level->surface, level->boundary, level->chart)
-                      : subdivided(source, boundary, chart.vertices);
+        level = level ? subdivided(level->surface, level->boundary, level->chart, level->map)
+                      : subdivided(source, boundary, chart.vertices, options.map);
     }
     std::optional<Chart> finer;
     if (level) {
@@ -50,11 +53,12 @@ SharpenedBound sharpened_bound(const Surface& source, const BoundaryCondition& b
     }
     const Surface& surface = level ? level->surface : source;
     const Chart& own = finer ? *finer : chart;
+    const Eigen::VectorXcd& mended = level ? level->map : options.map;
     result.triangles = surface.mesh.face_count();
     QuadraticStep step(surface, level ? level->boundary : boundary, own, space, coefficients);
     for (int i = 0; i < kMostSteps; ++i) {
         QuadraticMap map = step.solve(k);
-        if (!straighten(surface, map).empty()) break;
+        if (!(mended.size() ? mend(surface, map, mended) : straighten(surface, map)).empty()) break;
         const ReichStrebel integrals = reich_strebel_quadratic(surface, own, space, coefficients, map);
         if (!integrals.valid) break;
         result.integrals = integrals;

@@ -7,6 +7,9 @@ namespace beltrami {
 struct SharpenedBoundOptions {
     int subdivisions = 0;          ///< midpoint subdivisions of the mesh before
     int most_triangles = 1000000;  ///< no finer mesh than that
+    /// #V images of a piecewise linear map of the source with the same boundary values and no face turned over, which
+    /// is put in where the quadratic one folds (mend()); empty: such a map is no use.
+    Eigen::VectorXcd map = {};
 };
 
 /// A Reich-Strebel bound by a piecewise quadratic map.

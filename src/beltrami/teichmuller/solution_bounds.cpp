@@ -62,6 +62,7 @@ SolutionBounds solution_bounds(const Solution& s, std::optional<int> subdivision
     for (int n = sharpens ? subdivisions.value_or(-1) : -1; n >= 0 && !sharp.integrals.valid; --n) {
         SharpenedBoundOptions options;
         options.subdivisions = n;
+        if (s.distortion.flipped.empty()) options.map = s.map;
         try {
             sharp = sharpened_bound(s.source, s.boundary, s.chart, s.space, s.coefficients, s.k, options);
         } catch (const Error& error) {

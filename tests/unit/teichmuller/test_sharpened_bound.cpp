@@ -199,6 +199,22 @@ TEST(SharpenedBound, BadMapsAreNoWitnesses) {
     EXPECT_FALSE(integrals(map).valid);
     map[inner] = std::numeric_limits<double>::infinity();
     EXPECT_FALSE(integrals(map).valid);
+    // What another map has there mends it, and nothing else moves; a map that is turned over itself mends nothing.
+    QuadraticMap bent = straight(ring.surface, good);
+    int edge = ring.surface.topology.edge_count() - 1;
+    const auto on_rim = [&](int end) {
+        return ring.surface.topology.on_boundary[ring.surface.topology.edges[edge][end]];
+    };
+    while (on_rim(0) || on_rim(1)) --edge;
+    const Eigen::Index far = good.size() + edge;
+    bent[far] += 1e-4;
+    const Complex kept_point = bent[far];
+    bent[inner] += 3.0;
+    EXPECT_TRUE(mend(ring.surface, bent, good).empty());
+    EXPECT_TRUE(integrals(bent).valid);
+    EXPECT_EQ(bent[inner], good[inner]);
+    EXPECT_EQ(bent[far], kept_point);
+    EXPECT_FALSE(mend(ring.surface, map, good.conjugate()).empty());
     // Coefficients of piecewise linear maps.
     Eigen::VectorXcd mu = beltrami_coefficient(ring.surface.operators, good);
     const auto linear = [&] { return reich_strebel(ring.surface, ring.chart, ring.space, kOne, mu); };
