@@ -14,6 +14,8 @@
 #include <beltrami/mesh/error.h>
 #include <beltrami/operators/distortion.h>
 
+#include "support/real_mesh.h"
+
 #include "baseline_shapes.h"
 
 namespace beltrami {
@@ -401,11 +403,11 @@ Statistics unweighted(const Surface& source, const Eigen::VectorXcd& f) {
 }
 
 TEST(Peers, MultiplyConnectedDomainWithPinnedBoundary) {
-    const char* folder = std::getenv("BELTRAMI_TEST_MESHES");
-    if (!folder) GTEST_SKIP() << "set BELTRAMI_TEST_MESHES to the folder of mcqc2d_planar_src.obj";
-    const Surface source(read_mesh(std::filesystem::path(folder) / "mcqc2d_planar_src.obj").mesh);
+    const std::filesystem::path file = test::real_mesh("mcqc2d_planar_src.obj");
+    if (file.empty()) GTEST_SKIP() << "set BELTRAMI_TEST_MESHES to the folder of mcqc2d_planar_src.obj";
+    const Surface source(read_mesh(file).mesh);
     BoundaryCondition boundary;
-    std::ifstream pins(std::filesystem::path(folder) / "mcqc2d_pins.txt");
+    std::ifstream pins(test::real_mesh("mcqc2d_pins.txt"));
     int vertex;
     double x, y;
     while (pins >> vertex >> x >> y) boundary.pin(vertex, {x, y});

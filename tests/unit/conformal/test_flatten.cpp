@@ -20,6 +20,8 @@
 #include <beltrami/mesh/error.h>
 #include <beltrami/mesh/topology.h>
 
+#include "support/real_mesh.h"
+
 namespace beltrami {
 namespace {
 
@@ -568,9 +570,9 @@ TEST(Flatten, TrianglesWithoutAreaAreTakenWithANote) {
 class FlattenRealMesh : public testing::TestWithParam<const char*> {};
 
 TEST_P(FlattenRealMesh, Converges) {
-    const char* folder = std::getenv("BELTRAMI_TEST_MESHES");
-    if (!folder) GTEST_SKIP() << "set BELTRAMI_TEST_MESHES to the folder of the test meshes";
-    const Mesh mesh = read_mesh(std::string(folder) + "/" + GetParam()).mesh;
+    const std::filesystem::path file = test::real_mesh(GetParam());
+    if (file.empty()) GTEST_SKIP() << "set BELTRAMI_TEST_MESHES to the folder of " << GetParam();
+    const Mesh mesh = read_mesh(file).mesh;
     const std::size_t n = boundary(mesh).size();
     for (const bool regular : {false, true}) {
         FlattenOptions options;
