@@ -1,8 +1,8 @@
 #include <cmath>
 #include <utility>
 
-#include <beltrami/maps/laplacian.h>
 #include <beltrami/baselines/start.h>
+#include <beltrami/maps/laplacian.h>
 #include <beltrami/mesh/error.h>
 
 namespace beltrami {

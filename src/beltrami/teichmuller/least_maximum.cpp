@@ -24,7 +24,7 @@ Eigen::VectorXcd conformal_start(const Surface& source, const BoundaryCondition&
         solver.factorize(Eigen::VectorXcd::Zero(source.operators.sample_count()), line_directions(boundary, source));
         return solver.solve(prescribed_values(boundary, source));
     }
-    const Eigen::VectorXcd map = least_squares_conformal_map(source, {});
+    Eigen::VectorXcd map = least_squares_conformal_map(source, {});
     if (boundary.vertices.empty()) return map;
     return map.array() + (boundary.images[0] - map[boundary.vertices[0]]);
 }
