@@ -8,6 +8,7 @@
 #include <beltrami/teichmuller/extremal_map.h>
 
 #include "support/meshes.h"
+#include "support/real_mesh.h"
 
 namespace beltrami {
 namespace {
@@ -66,9 +67,8 @@ TEST(ThreeLobes, UnfoldsAHarmonicStartWithMoreThanAHundredFlips) {
 }
 
 TEST(RealScan, HumanFaceToTheDisk) {
-    const char* folder = std::getenv("BELTRAMI_TEST_MESHES");
-    const std::filesystem::path path = std::filesystem::path(folder ? folder : "") / "human_face.obj";
-    if (!folder || !std::filesystem::exists(path)) GTEST_SKIP() << "no human_face.obj in BELTRAMI_TEST_MESHES";
+    const std::filesystem::path path = test::real_mesh("human_face.obj");
+    if (path.empty()) GTEST_SKIP() << "no human_face.obj in BELTRAMI_TEST_MESHES";
     const Surface surface(read_mesh(path).mesh);
     const ExtremalMap result = extremal_map(surface, boundary_to_disk(surface, 0.5));
     EXPECT_TRUE(result.distortion.flipped.empty());

@@ -246,17 +246,7 @@ class CholmodBackend final : public CholeskyBackend {
             }
             begins.push_back(static_cast<int>(rows.size()));
         }
-        cholmod_sparse graph{};
-        graph.nrow = graph.ncol = static_cast<std::size_t>(count);
-        graph.nzmax = rows.size();
-        graph.p = begins.data();
-        graph.i = rows.data();
-        graph.stype = -1;
-        graph.itype = CHOLMOD_INT;
-        graph.xtype = CHOLMOD_PATTERN;
-        graph.dtype = CHOLMOD_DOUBLE;
-        graph.sorted = 1;
-        graph.packed = 1;
+        cholmod_sparse graph = lower_view(count, begins.data(), rows.data(), nullptr);
         std::vector<int> blocks(static_cast<std::size_t>(count)), order;
         if (!(by_metis ? cholmod_metis(&graph, nullptr, 0, 1, blocks.data(), &common_)
                        : cholmod_amd(&graph, nullptr, 0, blocks.data(), &common_)))
@@ -268,15 +258,21 @@ class CholmodBackend final : public CholeskyBackend {
     }
 
     static cholmod_sparse view_of(const Matrix& lower) {
+        return lower_view(static_cast<int>(lower.rows()), lower.outerIndexPtr(), lower.innerIndexPtr(),
+                          lower.valuePtr());
+    }
+
+    /// A compressed lower triangle as CHOLMOD sees it; a pattern where there are no values.
+    static cholmod_sparse lower_view(int size, const int* begins, const int* rows, const double* values) {
         cholmod_sparse view{};
-        view.nrow = view.ncol = static_cast<std::size_t>(lower.rows());
-        view.nzmax = static_cast<std::size_t>(lower.nonZeros());
-        view.p = const_cast<int*>(lower.outerIndexPtr());
-        view.i = const_cast<int*>(lower.innerIndexPtr());
-        view.x = const_cast<double*>(lower.valuePtr());
+        view.nrow = view.ncol = static_cast<std::size_t>(size);
+        view.nzmax = static_cast<std::size_t>(begins[size]);
+        view.p = const_cast<int*>(begins);
+        view.i = const_cast<int*>(rows);
+        view.x = const_cast<double*>(values);
         view.stype = -1;
         view.itype = CHOLMOD_INT;
-        view.xtype = CHOLMOD_REAL;
+        view.xtype = values ? CHOLMOD_REAL : CHOLMOD_PATTERN;
         view.dtype = CHOLMOD_DOUBLE;
         view.sorted = 1;
         view.packed = 1;

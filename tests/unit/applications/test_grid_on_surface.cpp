@@ -16,6 +16,7 @@
 #include <beltrami/mesh/error.h>
 
 #include "support/meshes.h"
+#include "support/real_mesh.h"
 
 namespace beltrami {
 namespace {
@@ -239,9 +240,9 @@ TEST(GridOnSurface, RefusesFoldsAndImpossibleGrids) {
 }
 
 TEST(GridOnSurface, RealScan) {
-    const char* folder = std::getenv("BELTRAMI_TEST_MESHES");
-    if (!folder || !std::filesystem::exists(folder)) GTEST_SKIP() << "BELTRAMI_TEST_MESHES names no folder of meshes";
-    const Surface face(read_mesh(std::filesystem::path(folder) / "human_face.obj").mesh);
+    const std::filesystem::path path = test::real_mesh("human_face.obj");
+    if (path.empty()) GTEST_SKIP() << "no human_face.obj in BELTRAMI_TEST_MESHES";
+    const Surface face(read_mesh(path).mesh);
     const Eigen::VectorXcd map = round_disk_chart(face).vertices;
     const SurfaceGrid coarse = grid_on_surface(face, map, RectangularGrid{.spacing = 0.05});
     EXPECT_NO_THROW(require_sound(coarse.mesh));
