@@ -23,14 +23,14 @@
 #include <string>
 #include <vector>
 
+#include <beltrami/base/parallel.h>
 #include <beltrami/beltrami.h>
 #include <beltrami/io/number_lists.h>
 #include <beltrami/linear/symmetric_solver.h>
-#include <beltrami/maps/beltrami_solver.h>
-#include <beltrami/maps/timing.h>
-#include <beltrami/mesh/parallel.h>
+#include <beltrami/report/timing.h>
+#include <beltrami/solve/beltrami_solver.h>
 
-#include "support/arguments.h"
+#include "arguments.h"
 
 namespace {
 

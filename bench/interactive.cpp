@@ -15,7 +15,7 @@
 
 #include <beltrami/beltrami.h>
 
-#include "support/arguments.h"
+#include "arguments.h"
 
 namespace {
 

@@ -21,7 +21,7 @@
 
 #include <beltrami/beltrami.h>
 #include <beltrami/linear/symmetric_solver.h>
-#include <beltrami/maps/timing.h>
+#include <beltrami/report/timing.h>
 
 namespace {
 

@@ -17,9 +17,9 @@
 
 #include <beltrami/beltrami.h>
 
-#include "support/arguments.h"
-#include "support/feasibility.h"
-#include "support/random_problem.h"
+#include "arguments.h"
+#include "problems/feasibility.h"
+#include "problems/random_problem.h"
 
 int main(int argc, char** argv) {
     using namespace beltrami;

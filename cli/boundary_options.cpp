@@ -4,8 +4,8 @@
 #include <optional>
 #include <string_view>
 
+#include <beltrami/base/error.h>
 #include <beltrami/io/number_lists.h>
-#include <beltrami/mesh/error.h>
 
 #include "parse.h"
 

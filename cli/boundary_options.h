@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include <beltrami/conformal/boundary_values.h>
+#include <beltrami/charts/boundary_values.h>
 
 #include "files.h"
 

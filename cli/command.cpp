@@ -6,10 +6,10 @@
 #include <chrono>
 #include <cstdio>
 
+#include <beltrami/base/error.h>
+#include <beltrami/base/parallel.h>
 #include <beltrami/io/atomic_file.h>
 #include <beltrami/io/read_mesh.h>
-#include <beltrami/mesh/error.h>
-#include <beltrami/mesh/parallel.h>
 
 #include "words.h"
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include <beltrami/mesh/error.h>
+#include <beltrami/base/error.h>
 #include <beltrami/report/record.h>
 
 #include "files.h"

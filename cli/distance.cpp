@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include <beltrami/base/error.h>
 #include <beltrami/io/atomic_file.h>
-#include <beltrami/mesh/error.h>
 #include <beltrami/report/dendrogram.h>
 
 #include "command.h"

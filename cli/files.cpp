@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <system_error>
 
+#include <beltrami/base/error.h>
 #include <beltrami/io/atomic_file.h>
-#include <beltrami/mesh/error.h>
 
 namespace beltrami::cli {
 

@@ -1,5 +1,5 @@
-#include <beltrami/conformal/flatten.h>
-#include <beltrami/conformal/round_disk.h>
+#include <beltrami/charts/round_disk.h>
+#include <beltrami/uniformize/flatten.h>
 
 #include "command.h"
 #include "output.h"

@@ -3,10 +3,10 @@
 #include <beltrami/applications/fitting_grid.h>
 #include <beltrami/applications/grid_on_surface.h>
 #include <beltrami/applications/reached_corners.h>
-#include <beltrami/conformal/disk_moebius.h>
+#include <beltrami/base/error.h>
+#include <beltrami/constraints/prescribed_split.h>
 #include <beltrami/io/write_mesh.h>
-#include <beltrami/maps/prescribed_split.h>
-#include <beltrami/mesh/error.h>
+#include <beltrami/plane/disk_moebius.h>
 #include <beltrami/teichmuller/target_model.h>
 
 #include "command.h"

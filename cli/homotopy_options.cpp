@@ -2,8 +2,8 @@
 
 #include <limits>
 
+#include <beltrami/base/error.h>
 #include <beltrami/io/number_lists.h>
-#include <beltrami/mesh/error.h>
 
 #include "parse.h"
 

@@ -2,8 +2,8 @@
 
 #include <numbers>
 
-#include <beltrami/generate/quality.h>
-#include <beltrami/mesh/error.h>
+#include <beltrami/base/error.h>
+#include <beltrami/meshing/quality.h>
 
 #include "command.h"
 #include "words.h"

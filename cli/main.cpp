@@ -6,9 +6,9 @@
 #include <numeric>
 #include <set>
 
+#include <beltrami/base/error.h>
 #include <beltrami/io/atomic_file.h>
 #include <beltrami/linear/symmetric_solver.h>
-#include <beltrami/mesh/error.h>
 
 #include "command.h"
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include <beltrami/maps/timing.h>
-#include <beltrami/mesh/error.h>
+#include <beltrami/base/error.h>
+#include <beltrami/report/timing.h>
 
 #include "boundary_options.h"
 #include "command.h"

@@ -2,9 +2,9 @@
 
 #include <map>
 
+#include <beltrami/base/error.h>
 #include <beltrami/baselines/baseline.h>
 #include <beltrami/baselines/t_map_scheme.h>
-#include <beltrami/mesh/error.h>
 #include <beltrami/teichmuller/certify.h>
 #include <beltrami/teichmuller/target_model.h>
 

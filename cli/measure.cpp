@@ -1,5 +1,5 @@
+#include <beltrami/base/error.h>
 #include <beltrami/mesh/diagnosis.h>
-#include <beltrami/mesh/error.h>
 #include <beltrami/mesh/topology.h>
 #include <beltrami/operators/distortion.h>
 

@@ -4,11 +4,11 @@
 
 #include <fmt/format.h>
 
+#include <beltrami/base/error.h>
 #include <beltrami/io/atomic_file.h>
 #include <beltrami/io/extension.h>
 #include <beltrami/io/number_lists.h>
-#include <beltrami/mesh/error.h>
-#include <beltrami/report/target_file.h>
+#include <beltrami/io/target_file.h>
 
 #include "command.h"
 #include "parse.h"

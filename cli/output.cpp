@@ -1,8 +1,8 @@
 #include "output.h"
 
+#include <beltrami/base/error.h>
 #include <beltrami/io/extension.h>
 #include <beltrami/io/write_mesh.h>
-#include <beltrami/mesh/error.h>
 
 #include "page.h"
 

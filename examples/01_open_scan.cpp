@@ -1,10 +1,10 @@
 // Opens a closed scan by a plane y = height and refines it once: what stays is the part above, a disk.
 //
 //     open_scan CLOSED.obj HEIGHT OUT.obj
+#include <beltrami/base/error.h>
 #include <beltrami/io/read_mesh.h>
 #include <beltrami/io/write_mesh.h>
 #include <beltrami/mesh/cut.h>
-#include <beltrami/mesh/error.h>
 #include <beltrami/mesh/subdivide.h>
 #include <beltrami/mesh/topology.h>
 

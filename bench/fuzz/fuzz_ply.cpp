@@ -2,8 +2,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include <beltrami/base/error.h>
 #include <beltrami/io/read_mesh.h>
-#include <beltrami/mesh/error.h>
 
 /// Any bytes are either read or refused with an Error; everything else is a bug.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -9,7 +9,7 @@ const Page& prescribed() {
         "gallery.md",
         "# Gallery\n\n"
         "Figures of Weber, Myles, Zorin, *Computing extremal quasiconformal maps*, 2012, made again with beltrami by\n"
-        "`./run gallery`. Shapes that the paper does not give are made here (`bench/support/problems.h`), so its "
+        "`./run gallery`. Shapes that the paper does not give are made here (`problems/problems.h`), so its "
         "numbers\n"
         "are for orientation. Colours show |μ|; flipped faces are red. Tables: the estimate of k, the lower bound on K "
         "of\n"

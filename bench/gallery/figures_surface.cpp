@@ -4,8 +4,8 @@
 #include <map>
 #include <set>
 
+#include <beltrami/base/random.h>
 #include <beltrami/generate/grids.h>
-#include <beltrami/generate/random.h>
 #include <beltrami/mesh/submesh.h>
 
 #include "gallery/gallery.h"

@@ -9,7 +9,7 @@
 
 #include <beltrami/beltrami.h>
 
-#include "support/problems.h"
+#include "problems/problems.h"
 
 /// The gallery: figures of maps with their numbers. A figure is one function that solves, writes data and describes its
 /// pictures; draw.py draws them.

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <beltrami/conformal/target_mesh.h>
-#include <beltrami/mesh/error.h>
+#include <beltrami/base/error.h>
+#include <beltrami/targets/target_mesh.h>
 
 #include <algorithm>
 #include <chrono>

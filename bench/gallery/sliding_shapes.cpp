@@ -1,6 +1,6 @@
 // More holes, arbitrary shapes and sizes, seconds.
-#include <beltrami/maps/beltrami_solver.h>
-#include <beltrami/maps/timing.h>
+#include <beltrami/report/timing.h>
+#include <beltrami/solve/beltrami_solver.h>
 
 #include <algorithm>
 #include <chrono>

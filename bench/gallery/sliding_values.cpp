@@ -6,7 +6,7 @@
 #include <beltrami/mesh/planar.h>
 
 #include "gallery/sliding.h"
-#include "support/elliptic.h"
+#include "problems/elliptic.h"
 
 namespace beltrami::gallery {
 

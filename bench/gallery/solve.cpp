@@ -1,5 +1,5 @@
-#include <beltrami/maps/beltrami_solver.h>
-#include <beltrami/mesh/error.h>
+#include <beltrami/base/error.h>
+#include <beltrami/solve/beltrami_solver.h>
 
 #include <algorithm>
 #include <chrono>

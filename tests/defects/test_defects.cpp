@@ -6,13 +6,13 @@
 #include <filesystem>
 #include <limits>
 
+#include <beltrami/base/error.h>
+#include <beltrami/base/random.h>
 #include <beltrami/generate/grids.h>
-#include <beltrami/generate/random.h>
 #include <beltrami/generate/round_domains.h>
 #include <beltrami/generate/sphere.h>
 #include <beltrami/io/read_mesh.h>
 #include <beltrami/mesh/diagnosis.h>
-#include <beltrami/mesh/error.h>
 #include <beltrami/mesh/topology.h>
 
 // One tiny mesh per defect: diagnose() must find it, at the right place, and nothing else.

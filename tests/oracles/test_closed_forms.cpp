@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include <beltrami/conformal/boundary_values.h>
+#include <beltrami/charts/boundary_values.h>
 #include <beltrami/io/read_mesh.h>
 #include <beltrami/teichmuller/extremal_map.h>
 

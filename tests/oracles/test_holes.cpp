@@ -1,7 +1,7 @@
 // Exact compositions on domains with holes, in the plane, bent, of quads, with a metric of their own, inside out.
 #include <gtest/gtest.h>
 
-#include <beltrami/mesh/error.h>
+#include <beltrami/base/error.h>
 
 #include "support/extremal.h"
 

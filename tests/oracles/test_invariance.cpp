@@ -1,10 +1,10 @@
 // What must not change k: where the source and the image lie, their size, numbering, threads.
 #include <gtest/gtest.h>
 
-#include <beltrami/mesh/parallel.h>
+#include <beltrami/base/parallel.h>
 
+#include "problems/outlines.h"
 #include "support/extremal.h"
-#include "support/outlines.h"
 
 namespace beltrami {
 namespace {

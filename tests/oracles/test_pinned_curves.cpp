@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
+#include <beltrami/base/error.h>
+#include <beltrami/base/parallel.h>
 #include <beltrami/generate/grids.h>
-#include <beltrami/mesh/error.h>
-#include <beltrami/mesh/parallel.h>
 #include <beltrami/teichmuller/extremal_solver.h>
 
 #include "support/extremal.h"

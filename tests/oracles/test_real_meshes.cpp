@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include <beltrami/conformal/boundary_values.h>
-#include <beltrami/conformal/domain_chart.h>
+#include <beltrami/charts/boundary_values.h>
+#include <beltrami/charts/domain_chart.h>
 #include <beltrami/io/read_mesh.h>
 #include <beltrami/teichmuller/extremal_onto.h>
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include <beltrami/generate/random.h>
+#include <beltrami/base/random.h>
 
 #include "support/extremal.h"
 

@@ -7,11 +7,11 @@
 
 #include "support/onto.h"
 
+#include <beltrami/base/error.h>
 #include <beltrami/generate/grids.h>
-#include <beltrami/mesh/error.h>
 #include <beltrami/mesh/planar.h>
 
-#include "support/elliptic.h"
+#include "problems/elliptic.h"
 
 namespace beltrami {
 namespace {

@@ -6,9 +6,9 @@
 
 #include <beltrami/teichmuller/extremal_map.h>
 
-#include "support/construct.h"
+#include "problems/construct.h"
+#include "problems/problems.h"
 #include "support/meshes.h"
-#include "support/problems.h"
 
 namespace beltrami::test {
 

@@ -6,9 +6,9 @@
 #include <functional>
 #include <numbers>
 
+#include <beltrami/constraints/boundary_condition.h>
 #include <beltrami/generate/grids.h>
 #include <beltrami/generate/round_domains.h>
-#include <beltrami/maps/boundary_condition.h>
 #include <beltrami/mesh/mesh.h>
 #include <beltrami/mesh/subdivide.h>
 

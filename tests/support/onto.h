@@ -7,7 +7,7 @@
 #include <array>
 #include <vector>
 
-#include <beltrami/generate/planar_domains.h>
+#include <beltrami/meshing/planar_domains.h>
 #include <beltrami/teichmuller/extremal_onto.h>
 
 namespace beltrami::test {

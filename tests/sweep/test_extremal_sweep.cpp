@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include <beltrami/mesh/error.h>
+#include <beltrami/base/error.h>
 
+#include "problems/feasibility.h"
+#include "problems/random_problem.h"
 #include "support/extremal.h"
-#include "support/feasibility.h"
-#include "support/random_problem.h"
 
 namespace beltrami::bench {
 namespace {

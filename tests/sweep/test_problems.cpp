@@ -5,14 +5,14 @@
 #include <numbers>
 #include <set>
 
-#include <beltrami/maps/beltrami_solver.h>
-#include <beltrami/maps/fold_free.h>
-#include <beltrami/mesh/error.h>
+#include <beltrami/base/error.h>
 #include <beltrami/operators/distortion.h>
+#include <beltrami/solve/beltrami_solver.h>
+#include <beltrami/unfold/fold_free.h>
 
-#include "support/elliptic.h"
-#include "support/feasibility.h"
-#include "support/problems.h"
+#include "problems/elliptic.h"
+#include "problems/feasibility.h"
+#include "problems/problems.h"
 
 namespace beltrami::bench {
 namespace {

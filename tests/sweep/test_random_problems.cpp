@@ -5,8 +5,8 @@
 
 #include <beltrami/mesh/topology.h>
 
-#include "support/feasibility.h"
-#include "support/random_problem.h"
+#include "problems/feasibility.h"
+#include "problems/random_problem.h"
 
 namespace beltrami::bench {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <beltrami/applications/plane_grid.h>
-#include <beltrami/maps/target_domain.h>
+#include <beltrami/targets/target_domain.h>
 
 namespace beltrami {
 

@@ -7,11 +7,11 @@
 #include <numbers>
 #include <optional>
 
-#include <beltrami/mesh/disjoint_sets.h>
-#include <beltrami/mesh/error.h>
-#include <beltrami/mesh/parallel.h>
-#include <beltrami/mesh/polygon.h>
-#include <beltrami/mesh/segment_tree.h>
+#include <beltrami/base/disjoint_sets.h>
+#include <beltrami/base/error.h>
+#include <beltrami/base/parallel.h>
+#include <beltrami/plane/polygon.h>
+#include <beltrami/plane/segment_tree.h>
 
 namespace beltrami {
 

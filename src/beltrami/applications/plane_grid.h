@@ -4,7 +4,7 @@
 #include <variant>
 #include <vector>
 
-#include <beltrami/mesh/segment_tree.h>
+#include <beltrami/plane/segment_tree.h>
 
 namespace beltrami {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include <beltrami/mesh/polygon.h>
+#include <beltrami/plane/polygon.h>
 
 namespace beltrami {
 

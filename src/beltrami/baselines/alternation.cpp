@@ -2,10 +2,10 @@
 #include <cmath>
 #include <utility>
 
-#include <beltrami/baselines/harmonic_forms.h>
+#include <beltrami/base/error.h>
 #include <beltrami/baselines/start.h>
-#include <beltrami/maps/beltrami_solver.h>
-#include <beltrami/mesh/error.h>
+#include <beltrami/forms/harmonic_forms.h>
+#include <beltrami/solve/beltrami_solver.h>
 
 namespace beltrami {
 

@@ -1,9 +1,9 @@
 #include <cmath>
 #include <utility>
 
+#include <beltrami/base/error.h>
 #include <beltrami/baselines/start.h>
-#include <beltrami/maps/laplacian.h>
-#include <beltrami/mesh/error.h>
+#include <beltrami/solve/laplacian.h>
 
 namespace beltrami {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <beltrami/maps/boundary_condition.h>
+#include <beltrami/constraints/boundary_condition.h>
 
 namespace beltrami {
 

@@ -3,10 +3,10 @@
 #include <numbers>
 #include <optional>
 
+#include <beltrami/base/error.h>
 #include <beltrami/baselines/start.h>
 #include <beltrami/linear/element_assembly.h>
-#include <beltrami/maps/fold_free.h>
-#include <beltrami/mesh/error.h>
+#include <beltrami/unfold/fold_free.h>
 
 namespace beltrami {
 

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include <beltrami/baselines/sample_neighbours.h>
+#include <beltrami/base/error.h>
 #include <beltrami/baselines/start.h>
-#include <beltrami/maps/beltrami_solver.h>
-#include <beltrami/mesh/error.h>
+#include <beltrami/operators/sample_neighbours.h>
+#include <beltrami/solve/beltrami_solver.h>
 
 namespace beltrami {
 

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include <beltrami/maps/beltrami_solver.h>
-#include <beltrami/mesh/error.h>
-#include <beltrami/mesh/polygon.h>
+#include <beltrami/base/error.h>
 #include <beltrami/operators/distortion.h>
+#include <beltrami/plane/polygon.h>
+#include <beltrami/solve/beltrami_solver.h>
 
 namespace beltrami {
 

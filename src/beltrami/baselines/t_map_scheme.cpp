@@ -4,10 +4,10 @@
 #include <cmath>
 #include <utility>
 
-#include <beltrami/baselines/sample_neighbours.h>
-#include <beltrami/mesh/error.h>
+#include <beltrami/base/error.h>
+#include <beltrami/operators/sample_neighbours.h>
+#include <beltrami/solve/sliding_map_step.h>
 #include <beltrami/teichmuller/sliding_loops.h>
-#include <beltrami/teichmuller/sliding_map_step.h>
 
 namespace beltrami {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <tuple>
 
-#include <beltrami/mesh/parallel.h>
+#include <beltrami/base/parallel.h>
 
 namespace beltrami {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <beltrami/conformal/chart.h>
+#include <beltrami/charts/chart.h>
 #include <beltrami/differentials/singularities.h>
 
 namespace beltrami {

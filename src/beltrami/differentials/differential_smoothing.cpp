@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <beltrami/mesh/parallel.h>
+#include <beltrami/base/parallel.h>
 
 namespace beltrami {
 

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include <beltrami/conformal/chart.h>
+#include <beltrami/charts/chart.h>
 
 namespace beltrami {
 

@@ -7,11 +7,11 @@
 #include <numbers>
 #include <sstream>
 
+#include <beltrami/base/error.h>
+#include <beltrami/base/parallel.h>
 #include <beltrami/differentials/dimension.h>
 #include <beltrami/linear/decomposition.h>
 #include <beltrami/linear/dense.h>
-#include <beltrami/mesh/error.h>
-#include <beltrami/mesh/parallel.h>
 
 namespace beltrami {
 

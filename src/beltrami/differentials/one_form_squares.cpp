@@ -4,11 +4,11 @@
 #include <cmath>
 #include <sstream>
 
+#include <beltrami/base/error.h>
 #include <beltrami/differentials/dimension.h>
 #include <beltrami/linear/decomposition.h>
 #include <beltrami/linear/dense.h>
 #include <beltrami/linear/element_assembly.h>
-#include <beltrami/mesh/error.h>
 
 namespace beltrami {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include <beltrami/mesh/parallel.h>
+#include <beltrami/base/parallel.h>
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)

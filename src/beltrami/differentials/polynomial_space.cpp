@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include <beltrami/mesh/parallel.h>
+#include <beltrami/base/parallel.h>
 
 namespace beltrami {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include <beltrami/differentials/tabulated_space.h>
-#include <beltrami/maps/beltrami_solver.h>
+#include <beltrami/solve/beltrami_solver.h>
 
 namespace beltrami {
 

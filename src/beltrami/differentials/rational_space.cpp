@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <beltrami/base/parallel.h>
 #include <beltrami/linear/dense.h>
-#include <beltrami/mesh/parallel.h>
 
 namespace beltrami {
 

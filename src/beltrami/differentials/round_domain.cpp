@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include <beltrami/conformal/circle_fit.h>
-#include <beltrami/mesh/error.h>
+#include <beltrami/base/error.h>
+#include <beltrami/plane/circle_fit.h>
 
 namespace beltrami {
 

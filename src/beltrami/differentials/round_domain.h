@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include <beltrami/conformal/chart.h>
+#include <beltrami/charts/chart.h>
 #include <beltrami/differentials/singularities.h>
 
 namespace beltrami {

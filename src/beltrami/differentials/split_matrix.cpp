@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include <beltrami/mesh/parallel.h>
+#include <beltrami/base/parallel.h>
 
 namespace beltrami {
 

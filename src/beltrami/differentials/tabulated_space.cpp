@@ -4,7 +4,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include <beltrami/mesh/error.h>
+#include <beltrami/base/error.h>
 
 namespace beltrami {
 

@@ -5,10 +5,10 @@
 #include <limits>
 #include <string>
 
-#include <beltrami/maps/vertex_samples.h>
-#include <beltrami/mesh/error.h>
+#include <beltrami/base/error.h>
+#include <beltrami/solve/sliding_map_step.h>
+#include <beltrami/solve/vertex_samples.h>
 #include <beltrami/teichmuller/sliding_loops.h>
-#include <beltrami/teichmuller/sliding_map_step.h>
 
 namespace beltrami {
 

@@ -1,6 +1,6 @@
 #include <beltrami/flow/slid_map.h>
 
-#include <beltrami/mesh/error.h>
+#include <beltrami/base/error.h>
 #include <beltrami/teichmuller/sliding_loops.h>
 
 namespace beltrami {

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include <beltrami/generate/delaunay.h>
-#include <beltrami/mesh/error.h>
+#include <beltrami/base/error.h>
 #include <beltrami/mesh/topology.h>
+#include <beltrami/meshing/delaunay.h>
 
 // The planar region where z² ≥ 0, bounded by an ellipse and two circles, is triangulated; two copies of it, lifted to z
 // and −z and glued along the boundary, have the right topology. Relaxation and edge flips on the surface then make good

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <string>
 
-#include <beltrami/mesh/error.h>
+#include <beltrami/base/error.h>
 
 namespace beltrami {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <beltrami/generate/jitter.h>
 #include <beltrami/mesh/mesh.h>
+#include <beltrami/meshing/jitter.h>
 
 namespace beltrami {
 

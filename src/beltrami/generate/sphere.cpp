@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include <beltrami/mesh/error.h>
+#include <beltrami/base/error.h>
 #include <beltrami/mesh/subdivide.h>
 
 namespace beltrami {

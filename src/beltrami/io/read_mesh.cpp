@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <beltrami/base/error.h>
 #include <beltrami/io/extension.h>
 #include <beltrami/io/read_file.h>
-#include <beltrami/mesh/error.h>
 
 namespace beltrami {
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include <beltrami/mesh/error.h>
+#include <beltrami/base/error.h>
 
 namespace beltrami {
 

@@ -13,10 +13,10 @@
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
+#include <beltrami/base/error.h>
 #include <beltrami/io/atomic_file.h>
 #include <beltrami/io/binary_source.h>
 #include <beltrami/io/extension.h>
-#include <beltrami/mesh/error.h>
 
 namespace beltrami {
 

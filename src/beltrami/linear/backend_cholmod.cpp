@@ -10,12 +10,12 @@
 #include <string>
 #include <vector>
 
+#include <beltrami/base/error.h>
 #include <beltrami/linear/backend.h>
 #include <beltrami/linear/dense.h>
 #include <beltrami/linear/supernodal_factor.h>
 #include <beltrami/linear/symmetric_solver.h>
 #include <beltrami/linear/vector_gram.h>
-#include <beltrami/mesh/error.h>
 
 extern "C" void dsyrk_(const char* uplo, const char* trans, const int* n, const int* k, const double* alpha,
                        const double* a, const int* lda, const double* beta, double* c, const int* ldc);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <beltrami/mesh/parallel.h>
+#include <beltrami/base/parallel.h>
 
 namespace beltrami::detail {
 

@@ -5,8 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include <beltrami/base/error.h>
 #include <beltrami/linear/backend.h>
-#include <beltrami/mesh/error.h>
 
 namespace beltrami {
 

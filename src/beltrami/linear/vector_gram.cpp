@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include <beltrami/mesh/parallel.h>
+#include <beltrami/base/parallel.h>
 
 #if defined(__x86_64__) && defined(__GNUC__)
 #define BELTRAMI_EIGHT_DOUBLES __attribute__((target("avx512f")))

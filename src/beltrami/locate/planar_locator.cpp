@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include <beltrami/mesh/error.h>
+#include <beltrami/base/error.h>
 
 namespace beltrami {
 

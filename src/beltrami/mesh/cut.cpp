@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include <beltrami/mesh/error.h>
+#include <beltrami/base/error.h>
 #include <beltrami/mesh/quad_split.h>
 
 namespace beltrami {

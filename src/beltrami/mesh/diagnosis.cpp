@@ -7,9 +7,9 @@
 #include <numbers>
 #include <utility>
 
-#include <beltrami/mesh/disjoint_sets.h>
+#include <beltrami/base/disjoint_sets.h>
+#include <beltrami/base/error.h>
 #include <beltrami/mesh/edge_table.h>
-#include <beltrami/mesh/error.h>
 
 namespace beltrami {
 namespace {

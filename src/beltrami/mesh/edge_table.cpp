@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include <beltrami/mesh/disjoint_sets.h>
+#include <beltrami/base/disjoint_sets.h>
 
 namespace beltrami {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include <beltrami/mesh/error.h>
+#include <beltrami/base/error.h>
 
 namespace beltrami {
 

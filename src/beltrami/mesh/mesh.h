@@ -1,14 +1,13 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <complex>
 #include <optional>
 #include <span>
 #include <vector>
 
-namespace beltrami {
+#include <beltrami/base/complex.h>
 
-using Complex = std::complex<double>;
+namespace beltrami {
 
 /// Vertex positions, one row a vertex: #V×3 in space or #V×2 in the plane. Row-major, so a row is contiguous.
 using Positions = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;

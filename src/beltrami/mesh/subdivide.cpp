@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <beltrami/base/error.h>
 #include <beltrami/mesh/edge_table.h>
-#include <beltrami/mesh/error.h>
 
 namespace beltrami {
 namespace {

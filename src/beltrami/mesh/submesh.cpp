@@ -4,7 +4,7 @@
 #include <numeric>
 #include <utility>
 
-#include <beltrami/mesh/disjoint_sets.h>
+#include <beltrami/base/disjoint_sets.h>
 #include <beltrami/mesh/edge_table.h>
 
 namespace beltrami {

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <utility>
 
+#include <beltrami/base/disjoint_sets.h>
+#include <beltrami/base/error.h>
 #include <beltrami/mesh/diagnosis.h>
-#include <beltrami/mesh/disjoint_sets.h>
 #include <beltrami/mesh/edge_table.h>
-#include <beltrami/mesh/error.h>
-#include <beltrami/mesh/polygon.h>
+#include <beltrami/plane/polygon.h>
 
 namespace beltrami {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numeric>
 
-#include <beltrami/mesh/parallel.h>
+#include <beltrami/base/parallel.h>
 #include <beltrami/mesh/planar.h>
 
 namespace beltrami {

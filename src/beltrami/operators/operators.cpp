@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include <beltrami/mesh/error.h>
+#include <beltrami/base/error.h>
 #include <beltrami/mesh/planar.h>
 #include <beltrami/mesh/topology.h>
 

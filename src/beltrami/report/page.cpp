@@ -10,7 +10,7 @@
 #include <numeric>
 #include <string_view>
 
-#include <beltrami/mesh/error.h>
+#include <beltrami/base/error.h>
 #include <beltrami/report/drawing.h>
 #include <beltrami/report/page.h>
 

@@ -5,8 +5,8 @@
 #include <limits>
 #include <string>
 
-#include <beltrami/mesh/error.h>
-#include <beltrami/teichmuller/refined_problem.h>
+#include <beltrami/base/error.h>
+#include <beltrami/certificate/refined_problem.h>
 
 namespace beltrami {
 

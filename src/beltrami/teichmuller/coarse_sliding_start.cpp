@@ -5,8 +5,8 @@
 #include <limits>
 #include <numbers>
 
-#include <beltrami/generate/planar_domains.h>
 #include <beltrami/locate/planar_locator.h>
+#include <beltrami/meshing/planar_domains.h>
 #include <beltrami/teichmuller/onto_problem.h>
 
 namespace beltrami {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include <beltrami/conformal/round_disk.h>
+#include <beltrami/charts/round_disk.h>
 #include <beltrami/differentials/polynomial_space.h>
 #include <beltrami/generate/round_domains.h>
 #include <beltrami/teichmuller/problem.h>

@@ -1,6 +1,6 @@
 #include <beltrami/teichmuller/extremal_map.h>
 
-#include <beltrami/mesh/error.h>
+#include <beltrami/base/error.h>
 #include <beltrami/teichmuller/extremal_solver.h>
 
 namespace beltrami {

@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-#include <beltrami/maps/boundary_condition.h>
-#include <beltrami/maps/boundary_corners.h>
-#include <beltrami/maps/continuation.h>
-#include <beltrami/maps/homotopy.h>
-#include <beltrami/maps/prescribed_split.h>
+#include <beltrami/certificate/certificate.h>
+#include <beltrami/constraints/boundary_condition.h>
+#include <beltrami/constraints/boundary_corners.h>
+#include <beltrami/constraints/prescribed_split.h>
+#include <beltrami/homotopy/continuation.h>
+#include <beltrami/homotopy/homotopy.h>
 #include <beltrami/operators/distortion.h>
-#include <beltrami/teichmuller/certificate.h>
 #include <beltrami/teichmuller/hamilton.h>
 
 namespace beltrami {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include <beltrami/mesh/error.h>
+#include <beltrami/base/error.h>
 #include <beltrami/teichmuller/onto_problem.h>
 
 namespace beltrami {

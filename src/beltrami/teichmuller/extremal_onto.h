@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include <beltrami/conformal/chart_places.h>
-#include <beltrami/conformal/circle_matching.h>
-#include <beltrami/maps/continuation.h>
-#include <beltrami/maps/marks.h>
+#include <beltrami/charts/chart_places.h>
+#include <beltrami/charts/circle_matching.h>
+#include <beltrami/homotopy/continuation.h>
+#include <beltrami/targets/marks.h>
 #include <beltrami/teichmuller/extremal_map.h>
 
 namespace beltrami {

@@ -5,12 +5,12 @@
 #include <limits>
 #include <string>
 
+#include <beltrami/base/error.h>
+#include <beltrami/certificate/solution_bounds.h>
+#include <beltrami/constraints/boundary_feasibility.h>
 #include <beltrami/differentials/polynomial_space.h>
-#include <beltrami/maps/boundary_feasibility.h>
-#include <beltrami/maps/even_dilatation.h>
-#include <beltrami/maps/fold_free.h>
-#include <beltrami/maps/twist.h>
-#include <beltrami/mesh/error.h>
+#include <beltrami/evening/even_dilatation.h>
+#include <beltrami/homotopy/twist.h>
 #include <beltrami/mesh/planar.h>
 #include <beltrami/mesh/subdivide.h>
 #include <beltrami/teichmuller/coarse_start.h>
@@ -18,7 +18,7 @@
 #include <beltrami/teichmuller/prepared_problem.h>
 #include <beltrami/teichmuller/problem.h>
 #include <beltrami/teichmuller/problem_chart.h>
-#include <beltrami/teichmuller/solution_bounds.h>
+#include <beltrami/unfold/fold_free.h>
 
 namespace beltrami {
 

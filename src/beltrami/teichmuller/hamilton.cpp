@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <beltrami/base/error.h>
 #include <beltrami/linear/anderson.h>
-#include <beltrami/mesh/error.h>
 #include <beltrami/operators/distortion.h>
 
 namespace beltrami {

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include <beltrami/teichmuller/coefficient_step.h>
-#include <beltrami/teichmuller/map_step.h>
+#include <beltrami/coefficient/coefficient_step.h>
+#include <beltrami/solve/map_step.h>
 
 namespace beltrami {
 

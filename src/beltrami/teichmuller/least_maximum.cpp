@@ -4,13 +4,13 @@
 #include <cmath>
 #include <utility>
 
-#include <beltrami/conformal/domain_chart.h>
-#include <beltrami/maps/beltrami_solver.h>
-#include <beltrami/maps/boundary_feasibility.h>
-#include <beltrami/maps/branch_points.h>
-#include <beltrami/maps/displacement_start.h>
-#include <beltrami/mesh/error.h>
+#include <beltrami/base/error.h>
+#include <beltrami/charts/domain_chart.h>
+#include <beltrami/constraints/boundary_feasibility.h>
 #include <beltrami/mesh/planar.h>
+#include <beltrami/solve/beltrami_solver.h>
+#include <beltrami/unfold/branch_points.h>
+#include <beltrami/unfold/displacement_start.h>
 
 namespace beltrami {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include <beltrami/maps/fold_free.h>
 #include <beltrami/teichmuller/extremal_map.h>
+#include <beltrami/unfold/fold_free.h>
 
 namespace beltrami {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include <beltrami/mesh/error.h>
+#include <beltrami/base/error.h>
 
 namespace beltrami {
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <limits>
 
+#include <beltrami/base/error.h>
 #include <beltrami/differentials/laurent_space.h>
 #include <beltrami/differentials/one_form_squares.h>
 #include <beltrami/differentials/projected_space.h>
-#include <beltrami/mesh/error.h>
 
 namespace beltrami {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <beltrami/differentials/differential_space.h>
-#include <beltrami/maps/beltrami_solver.h>
+#include <beltrami/solve/beltrami_solver.h>
 #include <beltrami/teichmuller/extremal_onto.h>
 
 namespace beltrami {

@@ -5,12 +5,12 @@
 #include <limits>
 #include <string>
 
+#include <beltrami/base/error.h>
 #include <beltrami/differentials/dimension.h>
-#include <beltrami/maps/dirichlet_solver.h>
-#include <beltrami/maps/fold_free.h>
-#include <beltrami/mesh/error.h>
+#include <beltrami/solve/dirichlet_solver.h>
 #include <beltrami/teichmuller/coarse_sliding_start.h>
 #include <beltrami/teichmuller/sliding_loops.h>
+#include <beltrami/unfold/fold_free.h>
 
 namespace beltrami {
 

@@ -1,8 +1,8 @@
 #pragma once
 
+#include <beltrami/solve/sliding_map_step.h>
 #include <beltrami/teichmuller/onto_differentials.h>
 #include <beltrami/teichmuller/prepared_problem.h>
-#include <beltrami/teichmuller/sliding_map_step.h>
 #include <beltrami/teichmuller/sliding_start.h>
 
 namespace beltrami {

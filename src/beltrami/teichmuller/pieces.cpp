@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
-#include <beltrami/maps/boundary_feasibility.h>
-#include <beltrami/maps/inner_constraints.h>
-#include <beltrami/mesh/disjoint_sets.h>
-#include <beltrami/mesh/error.h>
-#include <beltrami/mesh/polygon.h>
+#include <beltrami/base/disjoint_sets.h>
+#include <beltrami/base/error.h>
+#include <beltrami/constraints/boundary_feasibility.h>
+#include <beltrami/constraints/inner_constraints.h>
 #include <beltrami/mesh/submesh.h>
+#include <beltrami/plane/polygon.h>
 
 namespace beltrami {
 

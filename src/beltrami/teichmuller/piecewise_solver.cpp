@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <limits>
 
-#include <beltrami/conformal/domain_chart.h>
-#include <beltrami/maps/boundary_feasibility.h>
-#include <beltrami/mesh/error.h>
+#include <beltrami/base/error.h>
+#include <beltrami/charts/domain_chart.h>
+#include <beltrami/constraints/boundary_feasibility.h>
 #include <beltrami/mesh/planar.h>
 #include <beltrami/mesh/subdivide.h>
 

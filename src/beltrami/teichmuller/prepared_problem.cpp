@@ -1,7 +1,7 @@
 #include <beltrami/teichmuller/prepared_problem.h>
 
-#include <beltrami/maps/boundary_feasibility.h>
-#include <beltrami/mesh/error.h>
+#include <beltrami/base/error.h>
+#include <beltrami/constraints/boundary_feasibility.h>
 
 namespace beltrami {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include <beltrami/maps/prescribed_split.h>
+#include <beltrami/constraints/prescribed_split.h>
 #include <beltrami/teichmuller/extremal_map.h>
 
 namespace beltrami {

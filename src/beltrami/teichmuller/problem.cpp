@@ -4,10 +4,10 @@
 #include <cmath>
 #include <tuple>
 
+#include <beltrami/constraints/inner_constraints.h>
 #include <beltrami/differentials/polynomial_space.h>
 #include <beltrami/differentials/rational_space.h>
-#include <beltrami/maps/inner_constraints.h>
-#include <beltrami/mesh/inside_polygon.h>
+#include <beltrami/plane/inside_polygon.h>
 
 namespace beltrami {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include <beltrami/maps/boundary_corners.h>
+#include <beltrami/constraints/boundary_corners.h>
 #include <beltrami/teichmuller/hamilton.h>
 
 namespace beltrami {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numbers>
 
-#include <beltrami/conformal/circle_fit.h>
-#include <beltrami/conformal/domain_chart.h>
+#include <beltrami/charts/domain_chart.h>
 #include <beltrami/mesh/planar.h>
+#include <beltrami/plane/circle_fit.h>
 
 namespace beltrami {
 

@@ -3,9 +3,9 @@
 #include <optional>
 #include <vector>
 
-#include <beltrami/conformal/chart.h>
-#include <beltrami/maps/beltrami_solver.h>
-#include <beltrami/maps/boundary_corners.h>
+#include <beltrami/charts/chart.h>
+#include <beltrami/constraints/boundary_corners.h>
+#include <beltrami/solve/beltrami_solver.h>
 
 namespace beltrami {
 

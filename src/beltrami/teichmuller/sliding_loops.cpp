@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include <beltrami/mesh/error.h>
+#include <beltrami/base/error.h>
 
 namespace beltrami {
 

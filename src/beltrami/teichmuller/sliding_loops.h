@@ -1,6 +1,6 @@
 #pragma once
 
-#include <beltrami/maps/sliding_boundary.h>
+#include <beltrami/solve/sliding_boundary.h>
 #include <beltrami/teichmuller/extremal_onto.h>
 
 namespace beltrami {

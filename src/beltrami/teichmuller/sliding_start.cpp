@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include <beltrami/mesh/error.h>
+#include <beltrami/base/error.h>
 #include <beltrami/teichmuller/loop_partners.h>
 #include <beltrami/teichmuller/untwisting.h>
 

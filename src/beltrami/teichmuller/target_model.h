@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include <beltrami/conformal/chart_places.h>
-#include <beltrami/conformal/target_mesh.h>
-#include <beltrami/maps/target_domain.h>
+#include <beltrami/charts/chart_places.h>
+#include <beltrami/targets/target_domain.h>
+#include <beltrami/targets/target_mesh.h>
 
 namespace beltrami {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include <beltrami/teichmuller/sliding_map_step.h>
+#include <beltrami/solve/sliding_map_step.h>
 
 namespace beltrami {
 

@@ -6,9 +6,9 @@
 #include <beltrami/applications/fitting_grid.h>
 #include <beltrami/applications/grid_on_surface.h>
 #include <beltrami/applications/reached_corners.h>
-#include <beltrami/conformal/target_mesh.h>
+#include <beltrami/base/error.h>
 #include <beltrami/generate/round_domains.h>
-#include <beltrami/mesh/error.h>
+#include <beltrami/targets/target_mesh.h>
 
 #include "support/meshes.h"
 

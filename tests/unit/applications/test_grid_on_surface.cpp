@@ -8,12 +8,12 @@
 #include <numbers>
 
 #include <beltrami/applications/grid_on_surface.h>
-#include <beltrami/conformal/boundary_values.h>
-#include <beltrami/conformal/round_disk.h>
-#include <beltrami/generate/planar_domains.h>
+#include <beltrami/base/error.h>
+#include <beltrami/charts/boundary_values.h>
+#include <beltrami/charts/round_disk.h>
 #include <beltrami/io/read_mesh.h>
 #include <beltrami/mesh/diagnosis.h>
-#include <beltrami/mesh/error.h>
+#include <beltrami/meshing/planar_domains.h>
 
 #include "support/meshes.h"
 #include "support/real_mesh.h"

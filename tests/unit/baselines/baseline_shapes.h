@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include <beltrami/maps/boundary_condition.h>
+#include <beltrami/constraints/boundary_condition.h>
 #include <beltrami/mesh/mesh.h>
 
 namespace beltrami::baseline_tests {

@@ -7,12 +7,12 @@
 
 #include <gtest/gtest.h>
 
+#include <beltrami/base/error.h>
 #include <beltrami/baselines/baseline.h>
 #include <beltrami/io/read_mesh.h>
-#include <beltrami/maps/beltrami_solver.h>
-#include <beltrami/maps/distortion_energy.h>
-#include <beltrami/mesh/error.h>
 #include <beltrami/operators/distortion.h>
+#include <beltrami/solve/beltrami_solver.h>
+#include <beltrami/unfold/distortion_energy.h>
 
 #include "support/real_mesh.h"
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include <beltrami/base/error.h>
 #include <beltrami/baselines/t_map_scheme.h>
-#include <beltrami/mesh/error.h>
 
 #include "support/onto.h"
 

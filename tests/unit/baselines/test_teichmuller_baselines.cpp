@@ -5,11 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include <beltrami/base/error.h>
 #include <beltrami/baselines/baseline.h>
-#include <beltrami/baselines/harmonic_forms.h>
-#include <beltrami/conformal/flatten.h>
-#include <beltrami/mesh/error.h>
+#include <beltrami/forms/harmonic_forms.h>
 #include <beltrami/operators/distortion.h>
+#include <beltrami/uniformize/flatten.h>
 
 #include "baseline_shapes.h"
 #include "support/meshes.h"

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <numbers>
 
+#include <beltrami/base/error.h>
 #include <beltrami/differentials/dimension.h>
 #include <beltrami/differentials/laurent_space.h>
 #include <beltrami/differentials/sampled_space.h>
 #include <beltrami/linear/decomposition.h>
-#include <beltrami/mesh/error.h>
 
 namespace beltrami {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include <beltrami/base/parallel.h>
+#include <beltrami/base/random.h>
 #include <beltrami/differentials/pole_sums.h>
-#include <beltrami/generate/random.h>
-#include <beltrami/mesh/parallel.h>
 
 namespace beltrami {
 namespace {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <beltrami/conformal/round_disk.h>
+#include <beltrami/charts/round_disk.h>
 #include <beltrami/differentials/polynomial_space.h>
 
 #include "support/meshes.h"

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <numbers>
 
-#include <beltrami/conformal/domain_chart.h>
+#include <beltrami/base/error.h>
+#include <beltrami/charts/domain_chart.h>
 #include <beltrami/differentials/laurent_space.h>
 #include <beltrami/differentials/projected_space.h>
-#include <beltrami/generate/planar_domains.h>
-#include <beltrami/mesh/error.h>
 #include <beltrami/mesh/planar.h>
+#include <beltrami/meshing/planar_domains.h>
 
 #include "support/function_spaces.h"
 #include "support/meshes.h"

@@ -5,10 +5,10 @@
 #include <numbers>
 #include <set>
 
+#include <beltrami/base/parallel.h>
 #include <beltrami/differentials/polynomial_space.h>
 #include <beltrami/differentials/rational_space.h>
 #include <beltrami/differentials/sampled_space.h>
-#include <beltrami/mesh/parallel.h>
 
 namespace beltrami {
 namespace {

@@ -4,11 +4,11 @@
 #include <numbers>
 #include <stdexcept>
 
-#include <beltrami/conformal/chart.h>
+#include <beltrami/base/error.h>
+#include <beltrami/charts/chart.h>
 #include <beltrami/differentials/polynomial_space.h>
 #include <beltrami/differentials/sampled_space.h>
 #include <beltrami/differentials/tabulated_space.h>
-#include <beltrami/mesh/error.h>
 
 #include "support/meshes.h"
 

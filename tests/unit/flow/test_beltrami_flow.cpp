@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include <beltrami/base/error.h>
 #include <beltrami/flow/beltrami_flow.h>
-#include <beltrami/mesh/error.h>
 #include <beltrami/mesh/planar.h>
 
 #include "support/onto.h"

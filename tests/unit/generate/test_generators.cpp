@@ -5,15 +5,15 @@
 #include <cmath>
 #include <numbers>
 
+#include <beltrami/base/error.h>
+#include <beltrami/base/random.h>
 #include <beltrami/generate/double_torus.h>
 #include <beltrami/generate/grids.h>
-#include <beltrami/generate/quality.h>
-#include <beltrami/generate/random.h>
 #include <beltrami/generate/round_domains.h>
 #include <beltrami/generate/sphere.h>
 #include <beltrami/mesh/diagnosis.h>
-#include <beltrami/mesh/error.h>
 #include <beltrami/mesh/topology.h>
+#include <beltrami/meshing/quality.h>
 
 // Euler characteristics and genera of all generators are tested with topology().
 

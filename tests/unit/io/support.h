@@ -16,7 +16,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <beltrami/mesh/error.h>
+#include <beltrami/base/error.h>
 #include <beltrami/mesh/mesh.h>
 
 namespace beltrami::io_tests {

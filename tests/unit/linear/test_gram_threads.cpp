@@ -3,9 +3,9 @@
 #include <thread>
 #include <vector>
 
-#include <beltrami/generate/random.h>
+#include <beltrami/base/parallel.h>
+#include <beltrami/base/random.h>
 #include <beltrami/linear/dense.h>
-#include <beltrami/mesh/parallel.h>
 
 namespace beltrami {
 namespace {

@@ -5,12 +5,12 @@
 #include <random>
 #include <utility>
 
+#include <beltrami/base/error.h>
+#include <beltrami/base/parallel.h>
 #include <beltrami/linear/anderson.h>
 #include <beltrami/linear/dense.h>
 #include <beltrami/linear/element_assembly.h>
 #include <beltrami/linear/symmetric_solver.h>
-#include <beltrami/mesh/error.h>
-#include <beltrami/mesh/parallel.h>
 
 namespace beltrami {
 namespace {

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <random>
 
+#include <beltrami/base/error.h>
 #include <beltrami/locate/planar_locator.h>
-#include <beltrami/maps/composition.h>
-#include <beltrami/mesh/error.h>
 #include <beltrami/operators/distortion.h>
+#include <beltrami/solve/composition.h>
 
 #include "support/meshes.h"
 

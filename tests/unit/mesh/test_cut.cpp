@@ -4,12 +4,12 @@
 #include <cmath>
 #include <numbers>
 
+#include <beltrami/base/error.h>
 #include <beltrami/generate/grids.h>
 #include <beltrami/generate/round_domains.h>
 #include <beltrami/generate/sphere.h>
 #include <beltrami/mesh/cut.h>
 #include <beltrami/mesh/diagnosis.h>
-#include <beltrami/mesh/error.h>
 #include <beltrami/mesh/topology.h>
 
 namespace beltrami {

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <beltrami/base/error.h>
 #include <beltrami/generate/grids.h>
 #include <beltrami/generate/sphere.h>
-#include <beltrami/mesh/error.h>
 #include <beltrami/mesh/mesh.h>
 #include <beltrami/mesh/planar.h>
 

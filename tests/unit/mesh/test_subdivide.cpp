@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include <beltrami/base/error.h>
 #include <beltrami/generate/double_torus.h>
 #include <beltrami/generate/grids.h>
 #include <beltrami/generate/round_domains.h>
-#include <beltrami/mesh/error.h>
 #include <beltrami/mesh/subdivide.h>
 #include <beltrami/mesh/topology.h>
 

@@ -5,14 +5,14 @@
 #include <numeric>
 #include <set>
 
+#include <beltrami/base/error.h>
+#include <beltrami/base/random.h>
 #include <beltrami/generate/double_torus.h>
 #include <beltrami/generate/grids.h>
-#include <beltrami/generate/planar_domains.h>
-#include <beltrami/generate/random.h>
 #include <beltrami/generate/round_domains.h>
 #include <beltrami/generate/sphere.h>
-#include <beltrami/mesh/error.h>
 #include <beltrami/mesh/topology.h>
+#include <beltrami/meshing/planar_domains.h>
 
 namespace beltrami {
 namespace {

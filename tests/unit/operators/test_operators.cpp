@@ -4,7 +4,7 @@
 #include <Eigen/SVD>
 #include <random>
 
-#include <beltrami/mesh/error.h>
+#include <beltrami/base/error.h>
 #include <beltrami/mesh/topology.h>
 #include <beltrami/operators/operators.h>
 

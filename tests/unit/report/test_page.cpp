@@ -8,7 +8,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include <beltrami/mesh/error.h>
+#include <beltrami/base/error.h>
 #include <beltrami/report/drawing.h>
 #include <beltrami/report/page.h>
 

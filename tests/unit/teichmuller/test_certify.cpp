@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include <beltrami/generate/planar_domains.h>
-#include <beltrami/mesh/error.h>
+#include <beltrami/base/error.h>
+#include <beltrami/meshing/planar_domains.h>
 #include <beltrami/teichmuller/certify.h>
 
 #include "support/meshes.h"

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include <beltrami/base/error.h>
 #include <beltrami/generate/round_domains.h>
-#include <beltrami/mesh/error.h>
 #include <beltrami/teichmuller/distance.h>
 
 namespace beltrami {

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <numeric>
 
-#include <beltrami/conformal/boundary_values.h>
+#include <beltrami/base/error.h>
+#include <beltrami/base/parallel.h>
+#include <beltrami/charts/boundary_values.h>
 #include <beltrami/generate/sphere.h>
-#include <beltrami/maps/beltrami_solver.h>
-#include <beltrami/mesh/error.h>
-#include <beltrami/mesh/parallel.h>
+#include <beltrami/solve/beltrami_solver.h>
 #include <beltrami/teichmuller/extremal_map.h>
 
 #include "support/meshes.h"

@@ -1,7 +1,7 @@
 // Ears and bridges: edges and faces that the prescribed vertices nail down.
 #include <gtest/gtest.h>
 
-#include <beltrami/mesh/error.h>
+#include <beltrami/base/error.h>
 
 #include "support/extremal.h"
 

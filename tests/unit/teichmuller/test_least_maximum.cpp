@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <functional>
 
-#include <beltrami/generate/planar_domains.h>
-#include <beltrami/mesh/error.h>
+#include <beltrami/base/error.h>
+#include <beltrami/meshing/planar_domains.h>
 #include <beltrami/teichmuller/least_maximum.h>
 
 #include "support/meshes.h"

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <beltrami/mesh/error.h>
+#include <beltrami/base/error.h>
 #include <beltrami/teichmuller/target_model.h>
 
 #include "support/onto.h"

@@ -1,5 +1,5 @@
+#include <beltrami/constraints/prescribed_split.h>
 #include <beltrami/generate/grids.h>
-#include <beltrami/maps/prescribed_split.h>
 #include <beltrami/teichmuller/extremal_map.h>
 #include <beltrami/teichmuller/pieces.h>
 #include <gtest/gtest.h>

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <complex>
+
+namespace beltrami {
+
+/// A point or vector of the plane.
+using Complex = std::complex<double>;
+
+}  // namespace beltrami

@@ -1,0 +1,147 @@
+#include <beltrami/charts/annulus_map.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <beltrami/linear/element_assembly.h>
+#include <beltrami/solve/beltrami_solver.h>
+
+namespace beltrami {
+
+namespace {
+
+/// Harmonic, 0 on one loop and 1 on the other.
+Eigen::VectorXd potential(const Surface& surface, int outer_loop) {
+    BoundaryCondition boundary;
+    for (int l = 0; l < 2; ++l)
+        for (const int v : surface.topology.boundary_loops[l]) boundary.pin(v, l == outer_loop ? 0.0 : 1.0);
+    return harmonic_map(surface, boundary).real();
+}
+
+/// A closed 1-form that is 0 but on the edges crossed by a strip of faces from one loop to the other, as the values of
+/// a function at each face corner (#corners): neighbouring faces differ by the constant 1 across the strip.
+std::vector<double> jumps_across_strip(const Surface& surface, int outer_loop) {
+    const Topology& topology = surface.topology;
+    const FaceList& faces = surface.mesh.faces;
+    std::vector<char> on_outer(surface.mesh.vertex_count(), 0);
+    for (const int v : topology.boundary_loops[outer_loop]) on_outer[v] = 1;
+    // Breadth first from all faces along the outer loop to the first one along the other.
+    std::vector<int> entry(faces.size(), -1);  // corner whose edge the search came in by
+    std::vector<int> queue;
+    std::vector<int> corner_faces(faces.corner_count());
+    for (int f = 0; f < faces.size(); ++f)
+        for (int c = faces.first_corner(f); c < faces.first_corner(f) + faces.degree(f); ++c) {
+            corner_faces[c] = f;
+            const auto& sides = topology.edge_faces[topology.corner_edges[c]];
+            if (entry[f] < 0 && (sides[0] < 0 || sides[1] < 0) && on_outer[faces.vertices()[c]]) {
+                entry[f] = c;
+                queue.push_back(f);
+            }
+        }
+    int last = -1;
+    for (std::size_t i = 0; i < queue.size() && last < 0; ++i) {
+        const int f = queue[i];
+        for (int c = faces.first_corner(f); c < faces.first_corner(f) + faces.degree(f) && last < 0; ++c) {
+            if (c == entry[f]) continue;
+            const auto& sides = topology.edge_faces[topology.corner_edges[c]];
+            const int g = sides[0] == f ? sides[1] : sides[0];
+            if (g < 0) {
+                if (!on_outer[faces.vertices()[c]]) last = c;
+            } else if (entry[g] < 0) {
+                for (int d = faces.first_corner(g); d < faces.first_corner(g) + faces.degree(g); ++d)
+                    if (topology.corner_edges[d] == topology.corner_edges[c]) entry[g] = d;
+                queue.push_back(g);
+            }
+        }
+    }
+    // Back along the strip: in each face, corners after the entry edge and up to the exit edge are 1 higher.
+    std::vector<double> jumps(faces.corner_count(), 0.0);
+    for (int exit = last; exit >= 0;) {
+        const int f = corner_faces[exit], first = faces.first_corner(f), degree = faces.degree(f);
+        for (int c = entry[f]; c != exit;) {
+            c = first + (c - first + 1) % degree;
+            jumps[c] = 1;
+        }
+        const auto& sides = topology.edge_faces[topology.corner_edges[entry[f]]];
+        const int g = sides[0] == f ? sides[1] : sides[0];
+        exit = -1;
+        if (g >= 0)
+            for (int d = faces.first_corner(g); d < faces.first_corner(g) + faces.degree(g); ++d)
+                if (topology.corner_edges[d] == topology.corner_edges[entry[f]]) exit = d;
+    }
+    return jumps;
+}
+
+/// The function of period ±1 with the least Dirichlet energy: the solution v of min Σ A |∇(v + jumps)|².
+Eigen::VectorXd periodic_harmonic(const Surface& surface, const std::vector<double>& jumps) {
+    const Operators& operators = surface.operators;
+    std::vector<int> unknown(operators.vertex_count, -1);
+    int count = 0;
+    const int held = surface.topology.boundary_loops[0][0];
+    for (const int v : operators.vertices)
+        if (v != held) unknown[v] = 0;
+    for (int& u : unknown)
+        if (u == 0) u = count++;
+    std::vector<int> unknowns;
+    unknowns.reserve(operators.vertices.size());
+    for (const int v : operators.vertices) unknowns.push_back(unknown[v]);
+    ElementAssembly assembly(operators.offsets, std::move(unknowns), count);
+    SymmetricSolver solver(assembly.pattern(), 1);
+    double* values = solver.matrix().valuePtr();
+    Eigen::VectorXd rhs = Eigen::VectorXd::Zero(count);
+    for (int s = 0; s < operators.sample_count(); ++s) {
+        const auto gradient = operators.gradient(s);
+        const int* slot = assembly.slots(s).data();
+        const double weight = operators.weights[s];
+        Complex slope = 0;
+        const double* jump = &jumps[surface.mesh.faces.first_corner(operators.faces[s])];
+        for (std::size_t i = 0; i < gradient.size(); ++i) {
+            slope += jump[i] * gradient[i];
+            for (std::size_t j = 0; j <= i; ++j, ++slot)
+                if (*slot >= 0) values[*slot] += weight * std::real(std::conj(gradient[i]) * gradient[j]);
+        }
+        if (slope == 0.0) continue;
+        for (std::size_t i = 0; i < gradient.size(); ++i)
+            if (assembly.unknowns(s)[i] >= 0)
+                rhs[assembly.unknowns(s)[i]] -= weight * std::real(std::conj(gradient[i]) * slope);
+    }
+    solver.factorize();
+    const Eigen::VectorXd solution = solver.solve(rhs);
+    Eigen::VectorXd v = Eigen::VectorXd::Zero(operators.vertex_count);
+    for (int i = 0; i < operators.vertex_count; ++i)
+        if (unknown[i] >= 0) v[i] = solution[unknown[i]];
+    return v;
+}
+
+}  // namespace
+
+Eigen::VectorXcd annulus_map(const Surface& surface, int outer_loop) {
+    const Operators& operators = surface.operators;
+    const Eigen::VectorXd u = potential(surface, outer_loop);
+    const std::vector<double> jumps = jumps_across_strip(surface, outer_loop);
+    const Eigen::VectorXd v = periodic_harmonic(surface, jumps);
+    double u_energy = 0, v_energy = 0, turning = 0;
+    for (int s = 0; s < operators.sample_count(); ++s) {
+        const auto stencil = operators.stencil(s);
+        const auto gradient = operators.gradient(s);
+        const double* jump = &jumps[surface.mesh.faces.first_corner(operators.faces[s])];
+        Complex du = 0, dv = 0;
+        for (std::size_t j = 0; j < stencil.size(); ++j) {
+            du += u[stencil[j]] * gradient[j];
+            dv += (v[stencil[j]] + jump[j]) * gradient[j];
+        }
+        u_energy += operators.weights[s] * std::norm(du);
+        v_energy += operators.weights[s] * std::norm(dv);
+        turning += operators.weights[s] * std::imag(std::conj(du) * dv);
+    }
+    // −u grows outwards, the angle counter-clockwise: the gradient of the angle is that of −u turned by 90°.
+    const double modulus = 2 * std::numbers::pi * std::sqrt(v_energy / u_energy);
+    const double sense = turning < 0 ? 2 * std::numbers::pi : -2 * std::numbers::pi;
+    Eigen::VectorXcd g(u.size());
+    for (Eigen::Index i = 0; i < u.size(); ++i) g[i] = std::polar(std::exp(-modulus * u[i]), sense * v[i]);
+    return g;
+}
+
+}  // namespace beltrami

@@ -1,0 +1,69 @@
+#include <beltrami/charts/chart.h>
+
+#include <beltrami/operators/distortion.h>
+
+namespace beltrami {
+
+namespace {
+
+/// A chart with a larger |μ| says nothing about a sample. One face of that kind, at a reflex corner of the source, can
+/// hold most of ∫|φ|.
+constexpr double kMostDistorted = 0.5;
+
+/// Shape functions of the bilinear element at its four Gauss points: corner j at point q.
+double bilinear_shape(int q, int j) {
+    constexpr double near = 0.62200846792814621559, side = 0.16666666666666666667, far = 0.04465819873852045108;
+    const int steps = (q - j + 4) % 4;
+    return steps == 0 ? near : steps == 2 ? far : side;
+}
+
+}  // namespace
+
+Eigen::VectorXcd at_samples(const Operators& operators, const Eigen::VectorXcd& values) {
+    Eigen::VectorXcd result(operators.sample_count());
+    for (int s = 0, q = 0; s < operators.sample_count(); ++s) {
+        q = s > 0 && operators.faces[s] == operators.faces[s - 1] ? q + 1 : 0;
+        const auto stencil = operators.stencil(s);
+        Complex sum = 0;
+        for (std::size_t j = 0; j < stencil.size(); ++j)
+            sum += values[stencil[j]] * (stencil.size() == 3 ? 1.0 / 3 : bilinear_shape(q, static_cast<int>(j)));
+        result[s] = sum;
+    }
+    return result;
+}
+
+Eigen::VectorXd vertex_areas(const Operators& operators) {
+    Eigen::VectorXd area = Eigen::VectorXd::Zero(operators.vertex_count);
+    for (int s = 0; s < operators.sample_count(); ++s) {
+        const auto stencil = operators.stencil(s);
+        for (const int v : stencil) area[v] += operators.weights[s] / static_cast<double>(stencil.size());
+    }
+    return area;
+}
+
+Chart make_chart(const Surface& source, Eigen::VectorXcd vertices, bool exact) {
+    const Operators& operators = source.operators;
+    Chart chart;
+    chart.exact = exact;
+    chart.vertices = std::move(vertices);
+    chart.positions = at_samples(operators, chart.vertices);
+    chart.derivatives.resize(operators.sample_count());
+    chart.excluded.assign(operators.sample_count(), 0);
+    int last_face = -1;
+    for (int s = 0; s < operators.sample_count(); ++s) {
+        const auto [dz, dzbar] = operators.derivatives(s, chart.vertices);
+        chart.derivatives[s] = dz;
+        if (!(std::abs(dzbar) < kMostDistorted * std::abs(dz))) {
+            chart.excluded[s] = 1;
+            if (operators.faces[s] != last_face) ++chart.excluded_faces;
+            last_face = operators.faces[s];
+        }
+    }
+    if (chart.excluded_faces)
+        chart.warnings.push_back("the conformal chart is far from conformal at " +
+                                 std::to_string(chart.excluded_faces) +
+                                 " faces; they are left out when the quadratic differential is determined");
+    return chart;
+}
+
+}  // namespace beltrami

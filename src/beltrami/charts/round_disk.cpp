@@ -1,0 +1,193 @@
+#include <beltrami/charts/round_disk.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include <beltrami/charts/greens_function.h>
+#include <beltrami/mesh/planar.h>
+#include <beltrami/plane/circle_fit.h>
+#include <beltrami/solve/dirichlet_solver.h>
+#include <beltrami/uniformize/flatten.h>
+
+namespace beltrami {
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// The real harmonic function with the values of @p boundary on the boundary.
+Eigen::VectorXd harmonic_extension(const BeltramiSolver& dirichlet, const Eigen::VectorXd& boundary) {
+    return dirichlet.solve(boundary.cast<Complex>()).real();
+}
+
+/// From so many samples on flattening a patch instead of the whole surface saves much (docs/performance.md).
+constexpr int kGreensFunctionFrom = 8'000;
+/// The tolerance to which a surface is flattened for a chart, whose own discretisation error is far larger.
+constexpr double kFlattenTolerance = 1e-8;
+
+/// A point deep inside the flattened surface: the inner vertex where the solution of −Δψ = 1, ψ = 0 on the boundary, is
+/// largest; without inner vertices, the middle of the largest face.
+Complex deep_point(const Surface& source, const BeltramiSolver& dirichlet, const Eigen::VectorXcd& w) {
+    const Eigen::VectorXd squares = w.cwiseAbs2();
+    const Eigen::VectorXd depth = harmonic_extension(dirichlet, squares) - squares;  // 4ψ, as Δ|w|² = 4
+    int deepest = -1;
+    for (const int v : source.mesh.faces.vertices())
+        if (!source.topology.on_boundary[v] && (deepest < 0 || depth[v] > depth[deepest])) deepest = v;
+    if (deepest >= 0) return w[deepest];
+    const auto largest = std::max_element(source.operators.weights.begin(), source.operators.weights.end());
+    Complex middle = 0;
+    const auto face = source.operators.stencil(static_cast<int>(largest - source.operators.weights.begin()));
+    for (const int v : face) middle += w[v] / static_cast<double>(face.size());
+    return middle;
+}
+
+void slide(const Surface& source, Eigen::VectorXcd& g, const RoundDiskOptions& options, int* factorizations) {
+    const auto& loop = source.topology.boundary_loops[0];
+    const int n = source.mesh.vertex_count();
+    std::vector<Freedom> freedom(n, Freedom::fixed);
+    for (const int v : source.mesh.faces.vertices()) freedom[v] = Freedom::free;
+    for (const int v : loop) freedom[v] = Freedom::sliding;
+    // Three held vertices, a third of the circle apart in the present map.
+    double turned = 0;
+    int held = 0;
+    for (std::size_t i = 0; i < loop.size() && held < 3; ++i) {
+        if (turned >= held * 2 * kPi / 3 - 1e-12) {
+            freedom[loop[i]] = Freedom::fixed;
+            ++held;
+        }
+        turned += std::arg(g[loop[(i + 1) % loop.size()]] / g[loop[i]]);
+    }
+    const Eigen::VectorXcd zero = Eigen::VectorXcd::Zero(source.operators.sample_count());
+    BeltramiSolver solver(source, freedom, options.sliding_steps);
+    for (int step = 0; step < options.sliding_steps; ++step) {
+        Eigen::VectorXcd tangent = Eigen::VectorXcd::Zero(n);
+        Eigen::VectorXd curvature = Eigen::VectorXd::Zero(n);
+        for (const int v : loop) tangent[v] = Complex(0, 1) * g[v];
+        if (step > 0) {
+            const Eigen::VectorXcd force = solver.gradient(g);
+            for (const int v : loop) curvature[v] = -std::real(std::conj(force[v]) * g[v]);
+        }
+        solver.factorize(zero, tangent, curvature);
+        ++*factorizations;
+        const Eigen::VectorXcd moved = solver.solve(g);
+        double largest = 0;
+        std::vector<double> turn(loop.size());
+        double damping = 1;
+        for (std::size_t i = 0; i < loop.size(); ++i)
+            turn[i] = std::real((moved[loop[i]] - g[loop[i]]) / tangent[loop[i]]);
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const std::size_t j = (i + 1) % loop.size();
+            const double gap = std::arg(g[loop[j]] / g[loop[i]]), closing = turn[i] - turn[j];
+            if (gap > 0 && closing > 0.9 * gap) damping = std::min(damping, 0.9 * gap / closing);
+            largest = std::max(largest, std::abs(turn[i]));
+        }
+        for (int v = 0; v < n; ++v)
+            if (freedom[v] == Freedom::free) g[v] = moved[v];
+        for (std::size_t i = 0; i < loop.size(); ++i) g[loop[i]] *= std::polar(1.0, damping * turn[i]);
+        if (damping * largest < options.tolerance) break;
+    }
+    // Interior for the final boundary.
+    for (const int v : loop) freedom[v] = Freedom::fixed;
+    BeltramiSolver inside(source, freedom, 1);
+    inside.factorize(zero);
+    ++*factorizations;
+    g = inside.solve(g);
+}
+
+}  // namespace
+
+void centre_in_disk(Eigen::VectorXcd& points, const Eigen::VectorXd& weights) {
+    double total = 0;
+    for (const double w : weights) total += w;
+    for (int step = 0; step < 200; ++step) {
+        Complex mean = 0;
+        for (Eigen::Index v = 0; v < points.size(); ++v) mean += weights[v] * points[v];
+        mean /= total;
+        if (std::abs(mean) < 1e-14) break;
+        for (Eigen::Index v = 0; v < points.size(); ++v)
+            points[v] = (points[v] - mean) / (1.0 - std::conj(mean) * points[v]);
+    }
+}
+
+namespace {
+
+/// g = (w − p) exp(h + i h*), h = −log|w − p| on the boundary, where w is the plane or flattens the whole surface.
+Eigen::VectorXcd disk_map_by_flattening(const Surface& source, const BeltramiSolver& dirichlet, ConjugateBy way,
+                                        int* factorizations) {
+    Eigen::VectorXcd w;
+    if (source.in_plane()) {
+        w = planar_coordinates(source.mesh);
+    } else {
+        FlattenOptions options;
+        options.tolerance = kFlattenTolerance;
+        const Flattening flat =
+            source.metric ? flatten(source.mesh, *source.metric, options) : flatten(source.mesh, options);
+        w = flat.positions;
+        *factorizations += flat.factorizations;
+    }
+    const Complex pole = deep_point(source, dirichlet, w);
+    Eigen::VectorXd real = Eigen::VectorXd::Zero(w.size());
+    for (const int v : source.topology.boundary_loops[0]) real[v] = -std::log(std::abs(w[v] - pole));
+    const Eigen::VectorXcd h =
+        with_conjugate(source, dirichlet, way, harmonic_extension(dirichlet, real), {}, -1, factorizations);
+    Eigen::VectorXcd g(w.size());
+    for (Eigen::Index v = 0; v < g.size(); ++v) g[v] = (w[v] - pole) * std::exp(h[v]);
+    return g;
+}
+
+/// 0 at a point deep inside, |g| = 1 on the boundary up to discretisation.
+Eigen::VectorXcd disk_map(const Surface& source, const BeltramiSolver& dirichlet, ConjugateBy way,
+                          int* factorizations) {
+    if (!source.in_plane() && source.operators.sample_count() >= kGreensFunctionFrom)
+        if (auto g = disk_map_by_greens_function(source, dirichlet, way, factorizations)) return std::move(*g);
+    return disk_map_by_flattening(source, dirichlet, way, factorizations);
+}
+
+/// @param dirichlet may be null
+Chart compute_chart(const Surface& source, const BeltramiSolver* dirichlet, const RoundDiskOptions& options) {
+    require_disk(source);
+    int factorizations = 0;
+    if (source.in_plane()) {
+        const Eigen::VectorXcd w = planar_coordinates(source.mesh);
+        std::vector<Complex> boundary;
+        for (const int v : source.topology.boundary_loops[0]) boundary.push_back(w[v]);
+        const CircleFit circle = fit_circle(boundary);
+        if (circle.exact()) return make_chart(source, (w.array() - circle.centre) / circle.radius, true);
+    }
+    std::optional<BeltramiSolver> own;
+    if (!dirichlet) {
+        dirichlet = &own.emplace(dirichlet_solver(source));
+        ++factorizations;
+    }
+    const Eigen::VectorXd areas = vertex_areas(source.operators);
+    const auto chart_by = [&](ConjugateBy way) {
+        Eigen::VectorXcd g = disk_map(source, *dirichlet, way, &factorizations);
+        for (const int v : source.topology.boundary_loops[0]) g[v] /= std::abs(g[v]);
+        centre_in_disk(g, areas);
+        return make_chart(source, std::move(g), false);
+    };
+    Chart chart = chart_by(ConjugateBy::flux);
+    if (chart.excluded_faces > 0)
+        if (Chart other = chart_by(ConjugateBy::system); other.excluded_faces < chart.excluded_faces)
+            chart = std::move(other);
+    if (options.sliding_steps > 0) {
+        slide(source, chart.vertices, options, &factorizations);
+        chart = make_chart(source, std::move(chart.vertices), false);
+    }
+    chart.factorizations = factorizations;
+    return chart;
+}
+
+}  // namespace
+
+Chart round_disk_chart(const Surface& source, const RoundDiskOptions& options) {
+    return compute_chart(source, nullptr, options);
+}
+
+Chart round_disk_chart(const Surface& source, const BeltramiSolver& dirichlet, const RoundDiskOptions& options) {
+    return compute_chart(source, &dirichlet, options);
+}
+
+}  // namespace beltrami

@@ -1,0 +1,259 @@
+#include <beltrami/coefficient/coefficient_step.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <beltrami/base/parallel.h>
+#include <beltrami/coefficient/differential_quadrature.h>
+#include <beltrami/linear/dense.h>
+
+namespace beltrami {
+
+namespace {
+
+constexpr double kClip = 0.95;
+/// δ of the rounded |φ| as part of its mean, per edge length of a sample in a domain of diameter 2: about |φ| at a
+/// fraction of an edge from a simple zero.
+constexpr double kRounding = 0.4;
+/// Where curves are, Newton's method needs the Hessian of what it minimises: so many clusters, at least.
+constexpr int kClustersWithCurves = 12000;
+/// Without a start, Newton's method begins with these values of δ, on the clusters.
+constexpr std::array kColdRoundings{0.3, 0.1, 0.03};
+/// … and ends each of them at steps of this length.
+constexpr double kColdStep = 0.05;
+
+Complex clipped(Complex mu) {
+    const double size = std::abs(mu);
+    if (std::isnan(size)) return 0;
+    if (std::isinf(size)) return kClip;
+    return size > kClip ? mu * (kClip / size) : mu;
+}
+
+}  // namespace
+
+CoefficientStep::CoefficientStep(const Surface& source, const Chart& chart, const Singularities& singularities,
+                                 double phase, int cluster_count)
+    : source_(source),
+      chart_(chart),
+      sampled_(chart, singularities, phase),
+      clusters_(cluster_samples(
+          source.operators, chart, singularities, phase,
+          singularities.curves.empty() ? cluster_count : std::max(cluster_count, kClustersWithCurves))) {
+    soft_ = !singularities.curves.empty();
+    SamplePoints means = points_near(singularities, source, chart);
+    set_quadrature(means);
+    sampled_.set_means(std::move(means));
+    double area = 0;
+    for (const double a : clusters_.squared) area += a;
+    edge_ = std::sqrt(area / static_cast<double>(source.operators.sample_count()));
+}
+
+/// The clusters' points; where a cluster is one sample that has several, those.
+void CoefficientStep::set_quadrature(const SamplePoints& means) {
+    const auto clusters = static_cast<std::size_t>(clusters_.points.positions.size());
+    std::vector<int> samples(clusters, 0);
+    std::vector<double> area(clusters, 0.0);
+    for (std::size_t s = 0; s < clusters_.cluster.size(); ++s)
+        if (clusters_.cluster[s] >= 0) {
+            ++samples[clusters_.cluster[s]];
+            area[clusters_.cluster[s]] += clusters_.squared[s];
+        }
+    std::vector<Complex> places;
+    std::vector<char> divided(clusters, 0);
+    for (std::size_t i = 0; i < means.samples.size(); ++i) {
+        const int cluster = clusters_.cluster[means.samples[i]];
+        if (cluster < 0 || samples[cluster] != 1) continue;
+        divided[cluster] = 1;
+        places.push_back(means.points.positions[static_cast<Eigen::Index>(i)]);
+        parts_.push_back({cluster, means.weights[static_cast<Eigen::Index>(i)]});
+    }
+    for (std::size_t q = 0; q < clusters; ++q)
+        if (!divided[q]) {
+            places.push_back(clusters_.points.positions[static_cast<Eigen::Index>(q)]);
+            parts_.push_back({static_cast<int>(q), 1.0});
+        }
+    const auto all = static_cast<Eigen::Index>(places.size());
+    quadrature_ = {Eigen::Map<const Eigen::VectorXcd>(places.data(), all), Eigen::VectorXd(all)};
+    for (Eigen::Index q = 0; q < all; ++q) quadrature_.weights[q] = parts_[q].part * area[parts_[q].cluster];
+}
+
+/// Weights of the samples as weights of the points of the norm: the samples, and after them the points of samples that
+/// have several, which leave 0 to their sample.
+Eigen::VectorXd CoefficientStep::at_points(const Eigen::VectorXd& of_samples) const {
+    const SamplePoints& means = sampled_.means();
+    const Eigen::Index samples = of_samples.size(), points = means.weights.size();
+    if (points == 0) return of_samples;
+    Eigen::VectorXd result(samples + points);
+    result.head(samples) = of_samples;
+    for (Eigen::Index i = 0; i < points; ++i) result[samples + i] = means.weights[i] * of_samples[means.samples[i]];
+    for (const int s : means.samples) result[s] = 0;
+    return result;
+}
+
+void CoefficientStep::set_space(const DifferentialSpace& space) {
+    sampled_.set(space);
+    last_coefficients_.resize(0);
+    problem_.basis = space.tabulated()
+                         ? means_over_clusters(*space.tabulated(), clusters_, chart_)
+                         : space.evaluate({quadrature_.points, Eigen::VectorXcd::Ones(quadrature_.points.size())});
+    if (space.tabulated() && space.transform()) problem_.basis = complex_product(problem_.basis, *space.transform());
+    problem_.complex_coefficients = space.complex_coefficients();
+}
+
+const Eigen::VectorXcd& CoefficientStep::values(const Eigen::VectorXcd& coefficients) {
+    if (coefficients.size() != last_coefficients_.size() || coefficients != last_coefficients_) {
+        last_values_ = sampled_.combination(coefficients);
+        last_coefficients_ = coefficients;
+    }
+    return last_values_;
+}
+
+Eigen::VectorXcd CoefficientStep::coefficient(double k, const Eigen::VectorXcd& phi) const {
+    double delta = 0;
+    if (soft_) {
+        double sum = 0, area = 0;
+        for (Eigen::Index s = 0; s < phi.size(); ++s) {
+            if (chart_.excluded[s]) continue;
+            sum += source_.operators.weights[s] * std::abs(phi[s]);  // |ψ| by area in the domain
+            area += clusters_.squared[s];
+        }
+        delta = area > 0 ? std::max(least_rounding_, kRounding * edge_) * sum / area : 0.0;
+    }
+    Eigen::VectorXcd nu(phi.size());
+    for (Eigen::Index s = 0; s < phi.size(); ++s) {
+        const double rounded = delta * std::norm(chart_.derivatives[s]);
+        const double size = std::sqrt(std::norm(phi[s]) + rounded * rounded);
+        nu[s] = size > 0 ? k * std::conj(phi[s]) / size : 0.0;
+    }
+    return nu;
+}
+
+namespace {
+
+/// N on every sample of the mesh, and on the points of samples that have several. Values of φ: those of the samples,
+/// then those of the points.
+class SampleNorm final : public DualNorm {
+  public:
+    /// @param weights A a of every point, 0 where the chart excludes the sample
+    /// @param known, values coefficients of which the values at the samples are known
+    SampleNorm(const SampledSpace& space, const Chart& chart, const Eigen::VectorXd& weights,
+               const Eigen::VectorXcd& known, const Eigen::VectorXcd& values)
+        : space_(space),
+          chart_(chart),
+          weights_(weights),
+          known_(known),
+          values_(values),
+          samples_(static_cast<int>(chart.excluded.size())) {}
+    Eigen::VectorXcd values(const Eigen::VectorXcd& c) const override {
+        const Eigen::Index points = weights_.size() - samples_;
+        if (points == 0) return at_samples(c);
+        Eigen::VectorXcd all(weights_.size());
+        all.head(samples_) = at_samples(c);
+        all.tail(points) = space_.combination_at_means(c);
+        return all;
+    }
+    double norm(const Eigen::VectorXcd& phi, double delta) const override {
+        return parallel_sum<double>(static_cast<int>(phi.size()), 0.0, [&](int first, int last) {
+            double sum = 0;
+            for (int s = first; s < last; ++s) sum += weights_[s] * std::sqrt(square(phi[s], s, delta));
+            return sum;
+        });
+    }
+    Eigen::VectorXcd gradient(const Eigen::VectorXcd& phi, double delta) const override {
+        Eigen::MatrixXcd direction(phi.size(), 1);
+        parallel_for(0, static_cast<int>(phi.size()), [&](int first, int last) {
+            for (int s = first; s < last; ++s) {
+                const double of = square(phi[s], s, delta);
+                direction(s, 0) = of > 0 ? weights_[s] / std::sqrt(of) * std::conj(phi[s]) : 0.0;
+            }
+        });
+        const Eigen::Index points = phi.size() - samples_;
+        if (points == 0) return space_.pair(direction);
+        return space_.pair(direction.topRows(samples_)) + space_.pair_at_means(direction.bottomRows(points));
+    }
+
+  private:
+    Eigen::VectorXcd at_samples(const Eigen::VectorXcd& c) const {
+        if (c.size() == known_.size() && c.size() > 0) {
+            const double factor = c.norm() / known_.norm();
+            if ((c - factor * known_).norm() < 1e-14 * c.norm()) return factor * values_;
+        }
+        return space_.combination(c);
+    }
+    double square(Complex phi, int s, double delta) const {
+        const Complex derivative =
+            s < samples_ ? chart_.derivatives[s] : space_.means().points.derivatives[s - samples_];
+        const double rounded = delta * std::norm(derivative);
+        return std::norm(phi) + rounded * rounded;
+    }
+    const SampledSpace& space_;
+    const Chart& chart_;
+    const Eigen::VectorXd& weights_;
+    const Eigen::VectorXcd &known_, &values_;
+    int samples_;
+};
+
+}  // namespace
+
+CoefficientStep::Result CoefficientStep::solve(const Eigen::VectorXcd& mu, const Eigen::VectorXcd& start, double step,
+                                               int newton_steps) {
+    const int samples = source_.operators.sample_count();
+    Eigen::MatrixXcd pairing_weight = Eigen::MatrixXcd::Zero(samples, 1);  // A b
+    Eigen::VectorXd norm_weight = Eigen::VectorXd::Zero(samples);          // A a
+    Eigen::VectorXd cluster_weight = Eigen::VectorXd::Zero(clusters_.points.positions.size());
+    for (int s = 0; s < samples; ++s) {
+        if (chart_.excluded[s]) continue;
+        const Complex m = clipped(mu[s]);
+        const double square = std::norm(m), area = source_.operators.weights[s];
+        pairing_weight(s, 0) = area / (1 - square) * m;
+        norm_weight[s] = area * (1 + square) / (1 - square);
+        cluster_weight[clusters_.cluster[s]] += clusters_.squared[s] * (1 + square) / (1 - square);
+    }
+    norm_weight = at_points(norm_weight);
+    problem_.weights.resize(static_cast<Eigen::Index>(parts_.size()));
+    for (std::size_t q = 0; q < parts_.size(); ++q)
+        problem_.weights[static_cast<Eigen::Index>(q)] = parts_[q].part * cluster_weight[parts_[q].cluster];
+    problem_.pairing = sampled_.pair(pairing_weight);
+    const SampleNorm norm(sampled_, chart_, norm_weight, last_coefficients_, last_values_);
+    Eigen::VectorXcd at = start;
+    DualOptions cold;
+    cold.step = kColdStep;
+    // New densities are as far from what they have to be as all functions are without a start.
+    if (at.size() == 0 || (soft_ && at.size() < problem_.basis.cols()))
+        for (const double rounding : kColdRoundings) {
+            problem_.rounding = rounding;
+            at = solve_dual(problem_, at, cold).coefficients;
+        }
+    problem_.rounding = std::max(least_rounding_, kRounding * edge_);
+    DualOptions options;
+    options.max_steps = newton_steps;
+    options.step = step;
+    options.norm = &norm;
+    if (start.size() > 0) options.reach = moved_;
+    const DualSolution dual = solve_dual(problem_, at, options);
+    moved_ = dual.moved;
+
+    Result result;
+    result.converged = dual.converged;
+    result.newton_steps = dual.newton_steps;
+    const double length = dual.coefficients.norm();
+    result.direction = length > 0 ? Eigen::VectorXcd(dual.coefficients / length) : dual.coefficients;
+    const Eigen::VectorXcd phi = length > 0 ? Eigen::VectorXcd(dual.phi / length) : dual.phi;
+    result.phi = phi.head(samples);
+    const double size = norm.norm(phi, 0);
+    if (!(size > 0)) return result;
+    last_coefficients_ = result.direction;
+    last_values_ = result.phi;
+    const double pairing = dual.pairing / length;
+    result.k = dilatation_of_pairing(2 * pairing / size);
+    const Eigen::VectorXd areas =
+        at_points(Eigen::Map<const Eigen::VectorXd>(source_.operators.weights.data(), samples));
+    double plain = 0;
+    for (Eigen::Index i = 0; i < phi.size(); ++i)
+        if (norm_weight[i] > 0) plain += areas[i] * std::sqrt(std::norm(phi[i]));
+    result.merit = plain / (size - 2 * pairing);
+    return result;
+}
+
+}  // namespace beltrami

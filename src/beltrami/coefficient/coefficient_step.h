@@ -1,0 +1,79 @@
+#pragma once
+
+#include <beltrami/coefficient/dual_step.h>
+#include <beltrami/differentials/sampled_space.h>
+
+namespace beltrami {
+
+/// Points of a canonical domain with their areas.
+struct QuadraturePoints {
+    Eigen::VectorXcd points;
+    Eigen::VectorXd weights;
+};
+
+/// The c-step on a mesh: from μ of a map to φ and k. Pairings, the norm and its gradient run over every sample; only
+/// the Hessian of Newton's method is summed over clusters.
+class CoefficientStep {
+  public:
+    struct Result {
+        Eigen::VectorXcd direction;  ///< coefficients of φ, of length 1; 0 if nothing pairs with μ
+        Eigen::VectorXcd phi;        ///< #S values of φ for these coefficients
+        double k = 0;
+        /// 1/I⁻ of the Reich-Strebel inequality for φ and μ (held at 0.95), one point per sample: how good both are.
+        double merit = 0;
+        int newton_steps = 0;
+        bool converged = false;  ///< of the convex problem
+    };
+
+    /// @param source, chart kept by reference
+    /// @param phase see SampledSpace
+    CoefficientStep(const Surface& source, const Chart& chart, const Singularities& singularities, double phase,
+                    int cluster_count);
+
+    /// Points of the canonical domain that resolve what the c-step sees, with their areas.
+    const QuadraturePoints& quadrature() const { return quadrature_; }
+
+    /// Makes another space the current one; kept by reference until the next call.
+    void set_space(const DifferentialSpace& space);
+
+    /// |φ| is rounded off below this part of its mean, and in any case where the samples do not resolve it. More makes
+    /// Newton's method quick, less makes φ exact.
+    void set_least_rounding(double part) { least_rounding_ = part; }
+
+    /// φ of coefficients (#S).
+    const Eigen::VectorXcd& values(const Eigen::VectorXcd& coefficients);
+
+    /// ν of the f-step: k conj(φ)/|φ|. Where curves are, k conj(φ)/√(|φ|² + δ²) with the rounding δ of the c-step:
+    /// there φ may all but vanish on one side, where less than k will do, and what is left of it says how much less.
+    Eigen::VectorXcd coefficient(double k, const Eigen::VectorXcd& phi) const;
+
+    /// @param mu    #S coefficients of the map; those of flipped or nearly flipped samples are held at |μ| = 0.95
+    /// @param start direction to start from, padded by zeros; empty at the very beginning
+    /// @param step  length of a Newton step, as part of the whole, at which c is good enough
+    /// @param newton_steps allowed
+    Result solve(const Eigen::VectorXcd& mu, const Eigen::VectorXcd& start, double step = 0, int newton_steps = 50);
+
+  private:
+    /// A part of a cluster.
+    struct Part {
+        int cluster;
+        double part;
+    };
+    void set_quadrature(const SamplePoints& means);
+    Eigen::VectorXd at_points(const Eigen::VectorXd& of_samples) const;
+
+    const Surface& source_;
+    const Chart& chart_;
+    SampledSpace sampled_;
+    Eigen::VectorXcd last_coefficients_, last_values_;  ///< of values()
+    SampleClusters clusters_;
+    QuadraturePoints quadrature_;
+    std::vector<Part> parts_;  ///< for which those points stand
+    DualProblem problem_;
+    Eigen::VectorXd moved_;  ///< of φ at the clusters in the last step
+    double least_rounding_ = 0;
+    bool soft_ = false;  ///< see coefficient()
+    double edge_ = 0;    ///< of the mean sample in the canonical domain
+};
+
+}  // namespace beltrami

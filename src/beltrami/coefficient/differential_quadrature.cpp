@@ -1,0 +1,288 @@
+#include <beltrami/coefficient/differential_quadrature.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <beltrami/base/parallel.h>
+#include <beltrami/mesh/planar.h>
+
+namespace beltrami {
+
+namespace {
+
+using Place = std::array<double, 2>;
+
+constexpr int kPoints = 6;
+struct Node {
+    std::array<double, 3> corner;  ///< weights of the corners
+    double weight;
+};
+constexpr double kA = 0.44594849091596488632, kB = 0.09157621350977074346;
+constexpr double kWeightA = 0.22338158967801146570, kWeightB = 0.10995174365532186764;
+constexpr std::array<Node, kPoints> kRule{{{{1 - 2 * kA, kA, kA}, kWeightA},
+                                           {{kA, 1 - 2 * kA, kA}, kWeightA},
+                                           {{kA, kA, 1 - 2 * kA}, kWeightA},
+                                           {{1 - 2 * kB, kB, kB}, kWeightB},
+                                           {{kB, 1 - 2 * kB, kB}, kWeightB},
+                                           {{kB, kB, 1 - 2 * kB}, kWeightB}}};
+
+/// A triangle in the coordinates of its face, with the sample to which it belongs.
+struct Piece {
+    std::array<Place, 3> corners;
+    int sample;
+    double area;  ///< in those coordinates
+};
+
+/// Pieces of a sample's mean are smaller than this part of their distance, or so often divided.
+constexpr double kMeanSlope = 0.7;
+constexpr int kMeanDepth = 3;
+constexpr int kPiecesPerChunk = 512;
+/// So many at a time, beyond the faces, or φ is no function that a mesh can resolve.
+constexpr std::size_t kMostPieces = 1 << 21;
+
+Place middle(const Place& a, const Place& b) {
+    return {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
+}
+
+Place inside(const Piece& piece, const Node& node) {
+    Place p{0, 0};
+    for (int j = 0; j < 3; ++j)
+        for (int i = 0; i < 2; ++i) p[i] += node.corner[j] * piece.corners[j][i];
+    return p;
+}
+
+/// Position, derivative and area element at the places of faces.
+class Places {
+  public:
+    Places(const Surface& source, const Chart& chart) : operators_(source.operators), chart_(chart) {
+        analytic_ = chart.exact && chart.analytic && source.in_plane();
+        if (source.in_plane()) plane_ = planar_coordinates(source.mesh);
+    }
+
+    struct At {
+        Complex position, derivative;
+        double area;  ///< per area in the coordinates of the face
+    };
+    At operator()(int sample, const Place& p) const {
+        const auto v = operators_.stencil(sample);
+        At at{0.0, chart_.derivatives[sample], 2 * operators_.weights[sample]};
+        const Eigen::VectorXcd& points = analytic_ ? plane_ : chart_.vertices;
+        if (v.size() == 3) {
+            at.position = points[v[0]] + p[0] * (points[v[1]] - points[v[0]]) + p[1] * (points[v[2]] - points[v[0]]);
+        } else {
+            const double x = p[0], y = p[1];
+            at.position = (1 - x) * (1 - y) * points[v[0]] + x * (1 - y) * points[v[1]] + x * y * points[v[2]] +
+                          (1 - x) * y * points[v[3]];
+            at.area = 4 * operators_.weights[sample];
+            if (plane_.size()) {
+                const Complex along_x = (1 - y) * (plane_[v[1]] - plane_[v[0]]) + y * (plane_[v[2]] - plane_[v[3]]);
+                const Complex along_y = (1 - x) * (plane_[v[3]] - plane_[v[0]]) + x * (plane_[v[2]] - plane_[v[1]]);
+                at.area = std::imag(std::conj(along_x) * along_y);
+            }
+        }
+        if (analytic_) {
+            const auto [value, derivative] = chart_.analytic(at.position);
+            at.position = value;
+            at.derivative = derivative;
+        }
+        return at;
+    }
+
+  private:
+    const Operators& operators_;
+    const Chart& chart_;
+    bool analytic_;
+    Eigen::VectorXcd plane_;  ///< empty for a surface in space
+};
+
+std::vector<Piece> whole_faces(const Operators& operators, const Chart& chart) {
+    std::vector<Piece> pieces;
+    pieces.reserve(operators.weights.size());
+    for (int s = 0, q = 0; s < operators.sample_count(); ++s) {
+        q = s > 0 && operators.faces[s] == operators.faces[s - 1] ? q + 1 : 0;
+        if (chart.excluded[s]) continue;
+        if (operators.stencil(s).size() == 3) {
+            pieces.push_back({{{{0, 0}, {1, 0}, {0, 1}}}, s, 0.5});
+            continue;
+        }
+        // The Gauss point q is the one next to corner q.
+        const double x = q == 1 || q == 2 ? 0.5 : 0, y = q >= 2 ? 0.5 : 0;
+        const Place a{x, y}, b{x + 0.5, y}, c{x + 0.5, y + 0.5}, d{x, y + 0.5};
+        pieces.push_back({{a, b, c}, s, 0.125});
+        pieces.push_back({{a, c, d}, s, 0.125});
+    }
+    return pieces;
+}
+
+void divide(const Piece& p, std::vector<Piece>& into) {
+    const Place ab = middle(p.corners[0], p.corners[1]), bc = middle(p.corners[1], p.corners[2]),
+                ca = middle(p.corners[2], p.corners[0]);
+    const double area = 0.25 * p.area;
+    into.push_back({{p.corners[0], ab, ca}, p.sample, area});
+    into.push_back({{ab, p.corners[1], bc}, p.sample, area});
+    into.push_back({{ca, bc, p.corners[2]}, p.sample, area});
+    into.push_back({{ab, bc, ca}, p.sample, area});
+}
+
+/// Where a sample lies in its face: a triangle's centroid, or the Gauss point next to corner q of a quad.
+Place place_of_sample(std::size_t corners, int q) {
+    if (corners == 3) return {1.0 / 3, 1.0 / 3};
+    constexpr double near = 0.21132486540518711775;
+    return {q == 1 || q == 2 ? 1 - near : near, q >= 2 ? 1 - near : near};
+}
+
+/// The quadrature of a function that is known at the samples only.
+double visit_samples(const Operators& operators, const Chart& chart, const Eigen::VectorXcd& phi,
+                     const std::function<void(const FacePoint&)>& visit) {
+    for (int s = 0, q = 0; s < operators.sample_count(); ++s) {
+        q = s > 0 && operators.faces[s] == operators.faces[s - 1] ? q + 1 : 0;
+        if (chart.excluded[s]) continue;
+        if (!std::isfinite(std::norm(phi[s]))) return std::numeric_limits<double>::infinity();
+        visit({s, place_of_sample(operators.stencil(s).size(), q), phi[s], operators.weights[s]});
+    }
+    return 1;
+}
+
+}  // namespace
+
+double visit_quadrature(const Surface& source, const Chart& chart, const DifferentialSpace& space,
+                        const Eigen::VectorXcd& coefficients, const std::function<void(const FacePoint&)>& visit,
+                        const QuadratureOptions& options) {
+    if (const Eigen::MatrixXcd* values = space.tabulated())
+        return visit_samples(source.operators, chart, *values * space.of_generators(coefficients), visit);
+    const Places places(source, chart);
+    std::vector<Piece> pieces = whole_faces(source.operators, chart), divided;
+    double total = 0, unresolved = 0;
+    for (int depth = 0; !pieces.empty(); ++depth) {
+        const int count = static_cast<int>(pieces.size());
+        std::vector<FacePoint> points(static_cast<std::size_t>(kPoints) * pieces.size());
+        parallel_for(
+            0, count,
+            [&](int first, int last) {
+                ChartPoints at;
+                at.positions.resize(kPoints * (last - first));
+                at.derivatives.resize(at.positions.size());
+                for (int i = first; i < last; ++i)
+                    for (int n = 0; n < kPoints; ++n) {
+                        const Place place = inside(pieces[i], kRule[n]);
+                        const Places::At here = places(pieces[i].sample, place);
+                        at.positions[kPoints * (i - first) + n] = here.position;
+                        at.derivatives[kPoints * (i - first) + n] = here.derivative;
+                        points[static_cast<std::size_t>(kPoints) * i + n] = {
+                            pieces[i].sample, place, 0.0, pieces[i].area * kRule[n].weight * here.area};
+                    }
+                const Eigen::VectorXcd phi = space.combination(at, coefficients);
+                for (Eigen::Index j = 0; j < phi.size(); ++j)
+                    points[static_cast<std::size_t>(kPoints) * first + j].phi = phi[j];
+            },
+            kPiecesPerChunk);
+        if (depth <= options.least_depth) {
+            total = 0;
+            for (const FacePoint& p : points)
+                if (std::isfinite(std::norm(p.phi))) total += p.weight * std::sqrt(std::norm(p.phi));
+        }
+        divided.clear();
+        for (int i = 0; i < count; ++i) {
+            const FacePoint* own = &points[static_cast<std::size_t>(kPoints) * i];
+            Complex mean = 0;
+            double part = 0, most = 0;
+            for (int n = 0; n < kPoints; ++n) {
+                mean += own[n].phi / static_cast<double>(kPoints);
+                part += own[n].weight * std::sqrt(std::norm(own[n].phi));
+            }
+            for (int n = 0; n < kPoints; ++n) most = std::max(most, std::norm(own[n].phi - mean));
+            if (!std::isfinite(part)) return std::numeric_limits<double>::infinity();
+            const bool varies =
+                most > options.variation * options.variation * std::norm(mean) && part > options.tolerance * total;
+            const bool possible = depth < options.most_depth && divided.size() < kMostPieces;
+            if (depth < options.least_depth || (varies && possible)) {
+                divide(pieces[i], divided);
+                continue;
+            }
+            if (varies) unresolved += part;
+            for (int n = 0; n < kPoints; ++n) visit(own[n]);
+        }
+        pieces.swap(divided);
+    }
+    return total > 0 ? unresolved / total : 0.0;
+}
+
+SamplePoints points_near(const Singularities& singularities, const Surface& source, const Chart& chart) {
+    SamplePoints result;
+    if (singularities.curves.empty() && singularities.held.empty()) return result;
+    std::vector<Complex> centres = singularities.pins;
+    for (const auto& held : singularities.held) centres.push_back(held.at);
+    for (const auto& corner : singularities.corners) centres.push_back(corner.vertex);
+    for (const auto& curve : singularities.curves)
+        centres.insert(centres.end(), curve.points.begin() + curve.first, curve.points.begin() + curve.last + 1);
+    const Places places(source, chart);
+    const std::vector<Piece> faces = whole_faces(source.operators, chart);
+    std::vector<std::vector<Piece>> parts(faces.size());
+    parallel_for(0, static_cast<int>(faces.size()), [&](int first, int last) {
+        std::vector<Piece> pending, divided;
+        for (int i = first; i < last; ++i) {
+            pending.assign(1, faces[i]);
+            for (int depth = 0; !pending.empty(); ++depth) {
+                divided.clear();
+                for (const Piece& piece : pending) {
+                    std::array<Complex, 3> at;
+                    for (int j = 0; j < 3; ++j) at[j] = places(piece.sample, piece.corners[j]).position;
+                    const Complex middle_point = (at[0] + at[1] + at[2]) / 3.0;
+                    double size = 0, distance = std::numeric_limits<double>::infinity();
+                    for (const Complex corner : at) size = std::max(size, std::norm(corner - middle_point));
+                    for (const Complex centre : centres)
+                        distance = std::min(distance, std::norm(centre - middle_point));
+                    if (depth < kMeanDepth && size > kMeanSlope * kMeanSlope * distance)
+                        divide(piece, divided);
+                    else
+                        parts[i].push_back(piece);
+                }
+                pending.swap(divided);
+            }
+        }
+    });
+    std::vector<Complex> positions, derivatives;
+    std::vector<double> weights;
+    std::vector<double> whole(source.operators.sample_count(), 0.0);
+    for (const Piece& face : faces) whole[face.sample] += face.area;
+    // A quad's sample has two pieces; it is left alone where neither is divided.
+    std::vector<char> is_divided(source.operators.sample_count(), 0);
+    for (const auto& part : parts)
+        if (part.size() > 1) is_divided[part[0].sample] = 1;
+    for (const auto& part : parts)
+        for (const Piece& piece : part) {
+            if (!is_divided[piece.sample]) continue;
+            Place centre{0, 0};
+            for (const Place& corner : piece.corners)
+                for (int i = 0; i < 2; ++i) centre[i] += corner[i] / 3;
+            const Places::At here = places(piece.sample, centre);
+            result.samples.push_back(piece.sample);
+            positions.push_back(here.position);
+            derivatives.push_back(here.derivative);
+            weights.push_back(piece.area / whole[piece.sample]);
+        }
+    const auto count = static_cast<Eigen::Index>(positions.size());
+    result.points.positions = Eigen::Map<const Eigen::VectorXcd>(positions.data(), count);
+    result.points.derivatives = Eigen::Map<const Eigen::VectorXcd>(derivatives.data(), count);
+    result.weights = Eigen::Map<const Eigen::VectorXd>(weights.data(), count);
+    return result;
+}
+
+ChartPoints chart_points(const Surface& source, const Chart& chart, const std::vector<FacePoint>& points) {
+    const Places places(source, chart);
+    ChartPoints result;
+    result.positions.resize(static_cast<Eigen::Index>(points.size()));
+    result.derivatives.resize(result.positions.size());
+    parallel_for(0, static_cast<int>(points.size()), [&](int first, int last) {
+        for (int i = first; i < last; ++i) {
+            const Places::At at = places(points[i].sample, points[i].place);
+            result.positions[i] = at.position;
+            result.derivatives[i] = at.derivative;
+        }
+    });
+    return result;
+}
+
+}  // namespace beltrami

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <beltrami/constraints/boundary_condition.h>
+
+namespace beltrami {
+
+/// Seconds of one harmonic map of a loaded mesh: operators, ordering, analysis, assembly, factorisation and solution,
+/// with the ordering and threads that the solvers use; median of three. The yardstick for other times.
+double harmonic_seconds(const Surface& source, const BoundaryCondition& boundary);
+
+}  // namespace beltrami

@@ -1,0 +1,248 @@
+#include <beltrami/solve/sliding_boundary.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include <beltrami/base/error.h>
+
+namespace beltrami {
+
+namespace {
+
+/// A step leaves at least this part of an increment, and never less than that part of what the source's edge has.
+constexpr double kLeastPart = 0.1, kFloor = 1e-3;
+/// The largest increment, as part of a whole turn; where a loop or an arc has few vertices, this multiple of the mean
+/// one.
+constexpr double kMostOfTurn = 1 / std::numbers::pi, kMostOfMean = 1.5;
+/// Corners that turn by more (radians) hold vertices.
+constexpr double kSharp = 0.35;
+/// Parameters nearer to a corner, as part of the length, are at it.
+constexpr double kAtCorner = 1e-12;
+/// What holds a vertex in a linear solve: far more than any diagonal entry, which is a sum of cotangents.
+constexpr double kHold = 1e6;
+
+/// Runs @p visit for the arcs between held vertices, (first, last) positions in order, last counted on beyond the
+/// loop's size; one arc from 0 to its size if none is held.
+template <typename Visit>
+void for_arcs(const std::vector<char>& held, Visit visit) {
+    const int n = static_cast<int>(held.size());
+    const auto start = std::find(held.begin(), held.end(), 1);
+    if (start == held.end()) {
+        visit(0, n);
+        return;
+    }
+    const int first = static_cast<int>(start - held.begin());
+    for (int i = first; i < first + n;) {
+        int j = i + 1;
+        while (!held[j % n]) ++j;
+        visit(i, j);
+        i = j;
+    }
+}
+
+}  // namespace
+
+std::vector<double> guarded_increments(std::vector<double> wanted, const std::vector<double>& least,
+                                       const std::vector<double>& most) {
+    double excess = 0, below = 0, above = 0;
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        const double held = std::clamp(wanted[i], least[i], most[i]);
+        excess += wanted[i] - held;
+        wanted[i] = held;
+        below += held - least[i];
+        above += most[i] - held;
+    }
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        if (excess < 0 && below > 0) wanted[i] += excess * (wanted[i] - least[i]) / below;
+        if (excess > 0 && above > 0) wanted[i] += excess * (most[i] - wanted[i]) / above;
+    }
+    return wanted;
+}
+
+SlidingBoundary::SlidingBoundary(const Surface& source, std::vector<SlidingLoop> loops)
+    : source_(source), loops_(std::move(loops)) {
+    const auto& boundary = source.topology.boundary_loops;
+    std::vector<char> seen(boundary.size(), 0);
+    for (const SlidingLoop& l : loops_) {
+        const std::string name = "boundary loop " + std::to_string(l.loop);
+        if (l.loop < 0 || l.loop >= static_cast<int>(boundary.size()) || seen[l.loop])
+            throw Error(Cause::bad_boundary, name + " does not exist or slides twice");
+        seen[l.loop] = 1;
+        const std::size_t n = boundary[l.loop].size();
+        if (l.parameters.size() != n || l.held.size() != n)
+            throw Error(Cause::bad_boundary, name + " has " + std::to_string(n) +
+                                                 " vertices, parameters are given for " +
+                                                 std::to_string(l.parameters.size()));
+        for (std::size_t i = 0; i < n; ++i) {
+            const double next = i + 1 < n ? l.parameters[i + 1] : l.parameters[0] + l.curve.length();
+            if (!(next > l.parameters[i]))
+                throw Error(Cause::bad_boundary,
+                            name + ": the places of its vertices on the target curve do not follow each other",
+                            "start from a map that keeps the order of the boundary vertices", {boundary[l.loop][i]});
+        }
+        Rim& rim = rims_.emplace_back();
+        const auto& lengths = source.boundary_edge_lengths[l.loop];
+        double whole = 0;
+        for (const double length : lengths) whole += length;
+        for (const double length : lengths) rim.floors.push_back(kFloor * l.curve.length() * length / whole);
+        rim.corners = l.curve.corners(kSharp);
+        rim.stuck.assign(n, 0);
+        rim.base.assign(n, 0.0);
+        rim.directions.assign(n, 0.0);
+    }
+    for (std::size_t i = 0; i < seen.size(); ++i)
+        if (!seen[i]) throw Error(Cause::bad_boundary, "boundary loop " + std::to_string(i) + " has no target curve");
+}
+
+std::vector<Freedom> SlidingBoundary::freedoms() const {
+    std::vector<Freedom> result(source_.mesh.vertex_count(), Freedom::fixed);
+    for (const int v : source_.mesh.faces.vertices()) result[v] = Freedom::free;
+    for (const SlidingLoop& l : loops_) {
+        const auto& vertices = source_.topology.boundary_loops[l.loop];
+        for (std::size_t i = 0; i < vertices.size(); ++i)
+            result[vertices[i]] = l.held[i] ? Freedom::fixed : Freedom::sliding;
+    }
+    return result;
+}
+
+void SlidingBoundary::place(Eigen::VectorXcd& map) const {
+    for (const SlidingLoop& l : loops_) {
+        const auto& vertices = source_.topology.boundary_loops[l.loop];
+        for (std::size_t i = 0; i < vertices.size(); ++i) map[vertices[i]] = l.curve.point(l.parameters[i]);
+    }
+}
+
+SlidingBoundary::Linearized SlidingBoundary::linearized(const Eigen::VectorXcd& force) {
+    Linearized result{Eigen::VectorXcd::Zero(source_.mesh.vertex_count()),
+                      Eigen::VectorXd::Zero(source_.mesh.vertex_count())};
+    for (std::size_t r = 0; r < loops_.size(); ++r) {
+        const SlidingLoop& l = loops_[r];
+        Rim& rim = rims_[r];
+        const double at_corner = kAtCorner * l.curve.length();
+        const auto& vertices = source_.topology.boundary_loops[l.loop];
+        for (std::size_t i = 0; i < vertices.size(); ++i) {
+            const int v = vertices[i];
+            const double s = l.curve.wrap(l.parameters[i]);
+            const CurvePlace place = l.curve.at(s);
+            Complex tangent = place.tangent;
+            rim.stuck[i] = 0;
+            for (const double corner : rim.corners) {
+                const double ahead = l.curve.ahead(corner, s);
+                if (std::min(ahead, l.curve.length() - ahead) > at_corner) continue;
+                // The energy falls along a side if its force points the other way.
+                const Complex out = l.curve.tangent(corner), in = l.curve.tangent_before(corner);
+                const double along_out = std::real(std::conj(force[v]) * out),
+                             along_in = std::real(std::conj(force[v]) * in);
+                if (along_out < 0 && -along_out >= along_in) {
+                    tangent = out;
+                } else if (along_in > 0) {
+                    tangent = in;
+                } else {
+                    rim.stuck[i] = 1;
+                }
+            }
+            rim.base[i] = place.point;
+            rim.directions[i] = tangent;
+            result.directions[v] = tangent;
+            result.extra_diagonal[v] = rim.stuck[i] ? kHold : std::real(std::conj(force[v]) * place.curvature);
+        }
+    }
+    return result;
+}
+
+double SlidingBoundary::advance(const Eigen::VectorXcd& moved) {
+    double largest = 0;
+    for (std::size_t r = 0; r < loops_.size(); ++r) {
+        SlidingLoop& l = loops_[r];
+        const Rim& rim = rims_[r];
+        const auto& vertices = source_.topology.boundary_loops[l.loop];
+        const int n = static_cast<int>(vertices.size());
+        const double length = l.curve.length(), at_corner = kAtCorner * length;
+        std::vector<double> step(n, 0.0);
+        for (int i = 0; i < n; ++i) {
+            if (l.held[i] || rim.stuck[i]) continue;
+            double by = std::real(std::conj(rim.directions[i]) * (moved[vertices[i]] - rim.base[i]));
+            // To the next sharp corner, and no farther.
+            for (const double corner : rim.corners) {
+                const double ahead = l.curve.ahead(l.parameters[i], corner), behind = length - ahead;
+                if (by > ahead && ahead > at_corner && behind > at_corner) by = ahead;
+                if (-by > behind && ahead > at_corner && behind > at_corner) by = -behind;
+            }
+            step[i] = by;
+        }
+        const auto increment = [&](int i, const std::vector<double>& of) {
+            return i % n + 1 < n ? of[i % n + 1] - of[i % n] : of[0] + length - of[n - 1];
+        };
+        std::vector<double> next = l.parameters;
+        for_arcs(l.held, [&](int first, int last) {
+            const int count = last - first;
+            const bool whole = !l.held[first % n];
+            std::vector<double> wanted(count), least(count), most(count);
+            double sum = 0, room = 0;
+            for (int i = first; i < last; ++i) sum += increment(i, l.parameters);
+            bool fine = true;
+            for (int i = first; i < last; ++i) {
+                const double present = increment(i, l.parameters);
+                double& want = wanted[i - first];
+                want = present + step[(i + 1) % n] - step[i % n];
+                least[i - first] = std::max(kLeastPart * present, std::min(rim.floors[i % n], present));
+                most[i - first] = std::max({present, kMostOfTurn * length, kMostOfMean * sum / count});
+                room += least[i - first];
+                fine = fine && want >= least[i - first] && want <= most[i - first];
+            }
+            if (!fine && room < sum) {
+                wanted = guarded_increments(std::move(wanted), least, most);
+            } else if (!fine) {
+                for (int i = first; i < last; ++i) wanted[i - first] = increment(i, l.parameters);
+            }
+            // Without a held vertex the mean movement is kept.
+            double at = l.parameters[first % n];
+            if (whole) {
+                double mean = 0, drift = 0, run = 0;
+                for (int i = 0; i < n; ++i) {
+                    mean += step[i] / n;
+                    drift += (run - (l.parameters[i] - l.parameters[0])) / n;
+                    run += wanted[i];
+                }
+                at += fine ? step[0] : mean - drift;
+            }
+            double turns = 0;  // of the parameters at the loop's end
+            for (int i = first; i < last; ++i) {
+                if (!l.held[i % n]) next[i % n] = at - turns;
+                at += wanted[i - first];
+                if (i % n == n - 1) turns = length;
+            }
+        });
+        for (int i = 0; i < n; ++i) largest = std::max(largest, std::abs(next[i] - l.parameters[i]) / length);
+        l.parameters = std::move(next);
+    }
+    return largest;
+}
+
+void SlidingBoundary::adopt(const Eigen::VectorXcd& map) {
+    for (SlidingLoop& l : loops_) {
+        const auto& vertices = source_.topology.boundary_loops[l.loop];
+        for (std::size_t i = 0; i < vertices.size(); ++i) {
+            if (l.held[i] || map[vertices[i]] == l.curve.point(l.parameters[i])) continue;
+            const double s = l.curve.nearest(map[vertices[i]], l.parameters[i]);
+            l.parameters[i] += std::remainder(s - l.parameters[i], l.curve.length());
+        }
+    }
+}
+
+double SlidingBoundary::least_increment() const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const SlidingLoop& l : loops_) {
+        const std::size_t n = l.parameters.size();
+        for (std::size_t i = 0; i < n; ++i) {
+            const double next = i + 1 < n ? l.parameters[i + 1] : l.parameters[0] + l.curve.length();
+            least = std::min(least, (next - l.parameters[i]) * static_cast<double>(n) / l.curve.length());
+        }
+    }
+    return least;
+}
+
+}  // namespace beltrami

@@ -1,0 +1,72 @@
+#include <beltrami/unfold/displacement_start.h>
+
+#include <algorithm>
+
+#include <beltrami/solve/laplacian.h>
+
+namespace beltrami {
+
+namespace {
+
+/// z ↦ turn · z + shift.
+struct Similarity {
+    Complex turn, shift;
+    Complex operator()(Complex z) const { return turn * z + shift; }
+};
+
+/// The one that fits prescribed images best; a shift where all of them are of one vertex or in one place.
+Similarity fitting(const Eigen::VectorXcd& places, const BoundaryCondition& boundary) {
+    Complex from = 0, to = 0, pairing = 0;
+    double spread = 0;
+    const auto count = static_cast<double>(boundary.vertices.size());
+    if (boundary.vertices.empty()) return {1.0, 0.0};
+    for (std::size_t i = 0; i < boundary.vertices.size(); ++i) {
+        from += places[boundary.vertices[i]] / count;
+        to += boundary.images[i] / count;
+    }
+    for (std::size_t i = 0; i < boundary.vertices.size(); ++i) {
+        const Complex z = places[boundary.vertices[i]] - from;
+        pairing += (boundary.images[i] - to) * std::conj(z);
+        spread += std::norm(z);
+    }
+    const Complex turn = spread > 0 && std::norm(pairing) > 0 ? pairing / spread : 1.0;
+    return {turn, to - turn * from};
+}
+
+}  // namespace
+
+Eigen::VectorXcd displacement_start(const Surface& source, const Eigen::VectorXcd& places,
+                                    const BoundaryCondition& boundary) {
+    const Similarity similarity = fitting(places, boundary);
+    Eigen::VectorXcd map = places.unaryExpr(similarity);
+    Eigen::VectorXcd displacement = Eigen::VectorXcd::Zero(map.size());
+    for (std::size_t i = 0; i < boundary.vertices.size(); ++i)
+        displacement[boundary.vertices[i]] = boundary.images[i] - map[boundary.vertices[i]];
+    for (const BoundaryCondition::Line& line : boundary.lines) {
+        const Complex along = line.direction / std::abs(line.direction), to_point = line.point - map[line.vertex];
+        displacement[line.vertex] = to_point - along * std::real(to_point * std::conj(along));
+    }
+    std::vector<Freedom> freedom = freedoms(boundary, source);
+    std::replace(freedom.begin(), freedom.end(), Freedom::sliding, Freedom::fixed);
+
+    // L u = −L (prescribed displacement) at the vertices that are not fixed.
+    const Operators& operators = source.operators;
+    Eigen::MatrixXd force = Eigen::MatrixXd::Zero(map.size(), 2);
+    for (int s = 0; s < operators.sample_count(); ++s) {
+        const auto stencil = operators.stencil(s);
+        const auto g = operators.gradient(s);
+        for (std::size_t i = 0; i < g.size(); ++i)
+            for (std::size_t j = 0; j < g.size(); ++j) {
+                const Complex pull =
+                    operators.weights[s] * std::real(std::conj(g[i]) * g[j]) * displacement[stencil[j]];
+                force(stencil[i], 0) -= pull.real();
+                force(stencil[i], 1) -= pull.imag();
+            }
+    }
+    const Eigen::MatrixXd rest = detail::Laplacian(operators, freedom).solve(force);
+    displacement.real() += rest.col(0);
+    displacement.imag() += rest.col(1);
+    return map + displacement;
+}
+
+}  // namespace beltrami
