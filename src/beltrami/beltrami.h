@@ -47,6 +47,7 @@
 #include <beltrami/plane/target_curve.h>
 #include <beltrami/solve/beltrami_solver.h>
 #include <beltrami/solve/composition.h>
+#include <beltrami/solve/quasiconformal_map.h>
 #include <beltrami/targets/marks.h>
 #include <beltrami/targets/target_domain.h>
 #include <beltrami/targets/target_mesh.h>

@@ -6,6 +6,7 @@
 #include <string>
 
 #include <beltrami/base/error.h>
+#include <beltrami/solve/quasiconformal_map.h>
 #include <beltrami/solve/sliding_map_step.h>
 #include <beltrami/solve/vertex_samples.h>
 #include <beltrami/teichmuller/sliding_loops.h>
@@ -20,21 +21,6 @@ constexpr int kExpectedFactorizations = 6;
 constexpr double kMostNu = 0.98;
 /// Beyond this part of the residual the misfit counts as one; below the other value all is rounding.
 constexpr double kMisfit = 0.4, kRounding = 1e-9;
-
-void require_coefficient(const Surface& source, const Eigen::VectorXcd& mu) {
-    if (mu.size() != source.operators.sample_count())
-        throw Error(Cause::bad_option,
-                    "the coefficient has " + std::to_string(mu.size()) + " values, the source " +
-                        std::to_string(source.operators.sample_count()) + " samples",
-                    "give one value for every triangle, four for every quad");
-    std::vector<int> bad;
-    for (Eigen::Index s = 0; s < mu.size(); ++s)
-        if (!(std::abs(mu[s]) < 1)) bad.push_back(static_cast<int>(s));
-    if (bad.empty()) return;
-    const std::string sentence = "the coefficient is not below 1 in size at " + std::to_string(bad.size()) +
-                                 " samples, the first of them " + std::to_string(bad[0]);
-    throw Error(Cause::bad_option, sentence, "every |μ| must be finite and below 1", std::move(bad));
-}
 
 /// Root mean square of b − a by that of a's distance from its mean, over the vertices of faces.
 double relative_change(const Surface& source, const Eigen::VectorXcd& a, const Eigen::VectorXcd& b) {
