@@ -38,6 +38,7 @@ std::unique_ptr<Command> make_map(CLI::App& parent);
 std::unique_ptr<Command> make_flatten(CLI::App& parent);
 std::unique_ptr<Command> make_distance(CLI::App& parent);
 std::unique_ptr<Command> make_grid(CLI::App& parent);
+std::unique_ptr<Command> make_apply(CLI::App& parent);
 
 /// Exit codes by cause; --help lists them.
 int exit_code(Cause cause);

@@ -73,18 +73,20 @@ int main(int argc, char** argv) {
                  "beltrami"};
     app.set_version_flag("--version", fmt::format("beltrami {} ({})", BELTRAMI_VERSION, linear_backend()));
     app.require_subcommand(1);
-    app.footer(std::string("Examples:\n"
-                           "  beltrami info face.obj\n"
-                           "  beltrami map face.obj -o out.obj --boundary disk:0.5 --json out.json --report out.html\n"
-                           "  beltrami map face.obj -o out.obj --boundary rectangle:1,1 --corners 610,106,2303,14923\n"
-                           "  beltrami map face.obj -o arap.obj --method arap --boundary disk\n"
-                           "  beltrami measure out.obj                 # distortion of its texture coordinates\n"
-                           "  beltrami measure rest.obj deformed.obj   # distortion of a deformation\n"
-                           "  beltrami map face.obj --onto domain.json -o out.obj   # the boundary slides\n"
-                           "  beltrami grid face.obj --onto domain.json -o quads.obj   # a structured grid\n"
-                           "  beltrami distance a.obj b.obj\n"
-                           "  beltrami flatten face.obj -o flat.obj\n\n") +
-               cli::kExitCodes);
+    app.footer(
+        std::string("Examples:\n"
+                    "  beltrami info face.obj\n"
+                    "  beltrami map face.obj -o out.obj --boundary disk:0.5 --json out.json --report out.html\n"
+                    "  beltrami map face.obj -o out.obj --boundary rectangle:1,1 --corners 610,106,2303,14923\n"
+                    "  beltrami map face.obj -o arap.obj --method arap --boundary disk\n"
+                    "  beltrami measure out.obj                 # distortion of its texture coordinates\n"
+                    "  beltrami measure rest.obj deformed.obj   # distortion of a deformation\n"
+                    "  beltrami map face.obj --onto domain.json -o out.obj   # the boundary slides\n"
+                    "  beltrami grid face.obj --onto domain.json -o quads.obj   # a structured grid\n"
+                    "  beltrami distance a.obj b.obj\n"
+                    "  beltrami flatten face.obj -o flat.obj\n"
+                    "  beltrami apply out.obj points.txt -o images.txt   # a map, or its inverse, at any points\n\n") +
+        cli::kExitCodes);
     std::vector<std::pair<CLI::App*, std::unique_ptr<cli::Command>>> commands;
     const auto add = [&](std::unique_ptr<cli::Command> (*make)(CLI::App&)) {
         auto command = make(app);
@@ -96,6 +98,7 @@ int main(int argc, char** argv) {
     add(cli::make_flatten);
     add(cli::make_grid);
     add(cli::make_distance);
+    add(cli::make_apply);
 
     try {
         app.parse(argc, argv);

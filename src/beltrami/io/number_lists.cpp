@@ -53,6 +53,22 @@ std::vector<std::vector<double>> read_rows(const std::filesystem::path& path, in
     return rows;
 }
 
+std::vector<NumberRow> read_number_rows(const std::filesystem::path& path, int least, int most,
+                                        const std::string& what) {
+    const std::string bytes = read_file(path);
+    TextScanner scanner(bytes, path.string());
+    std::vector<NumberRow> rows;
+    while (scanner.next_line()) {
+        NumberRow& row = rows.emplace_back(NumberRow{scanner.line(), {}});
+        while (!scanner.at_line_end() && static_cast<int>(row.numbers.size()) < most)
+            row.numbers.push_back(scanner.number("a number of " + what));
+        if (!scanner.at_line_end() || static_cast<int>(row.numbers.size()) < least)
+            scanner.fail(least == most ? fmt::format("{} has {} numbers", what, least)
+                                       : fmt::format("{} has {} to {} numbers", what, least, most));
+    }
+    return rows;
+}
+
 IndexedRows read_indexed_rows(const std::filesystem::path& path, int index_columns, int limit, int value_columns,
                               const std::string& what, Stars stars) {
     const std::string bytes = read_file(path);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -13,6 +14,19 @@ namespace beltrami {
 /// @param what    what a row is, for the error: "a landmark", "a pinned vertex"
 /// @throw Error unreadable with file and line
 std::vector<std::vector<double>> read_rows(const std::filesystem::path& path, int columns, const std::string& what);
+
+/// A row of numbers and the line it stands on, counted from 1.
+struct NumberRow {
+    std::int64_t line;
+    std::vector<double> numbers;
+};
+
+/// Reads a text file whose rows need not have equally many numbers.
+/// @param least, most how many numbers a row may have
+/// @param what        what a row is, for the error
+/// @throw Error unreadable with file and line
+std::vector<NumberRow> read_number_rows(const std::filesystem::path& path, int least, int most,
+                                        const std::string& what);
 
 /// Rows that begin with indices, as lists of pins, landmarks and corners do.
 struct IndexedRows {

@@ -115,7 +115,9 @@ std::optional<MeshPoint> PlanarLocator::locate(Complex point) const {
     for (int i = offsets_[bucket]; i < offsets_[bucket + 1]; ++i) {
         const Triangle& t = triangles_[contents_[i]];
         const auto weights = barycentric(t, point);
-        if (std::min({weights[0], weights[1], weights[2]}) >= -kSlack) return MeshPoint{t.face, t.vertices, weights};
+        // One by one: weights of a collapsed triangle are no numbers, and compare as false.
+        if (weights[0] >= -kSlack && weights[1] >= -kSlack && weights[2] >= -kSlack)
+            return MeshPoint{t.face, t.vertices, weights};
     }
     return {};
 }

@@ -1,0 +1,200 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <beltrami/base/error.h>
+#include <beltrami/io/atomic_file.h>
+#include <beltrami/io/number_lists.h>
+#include <beltrami/locate/map_evaluation.h>
+#include <beltrami/operators/distortion.h>
+
+#include "command.h"
+#include "words.h"
+
+namespace beltrami::cli {
+
+namespace {
+
+/// Weights of a point's corners sum up to 1, and are not negative, up to this.
+constexpr double kWeightTolerance = 1e-9;
+
+/// Reads places of the source and points of its image, and writes both.
+class PointFile {
+  public:
+    PointFile(const std::string& path, const Mesh& mesh, bool inverse)
+        : path_(path),
+          mesh_(mesh),
+          rows_(read_number_rows(path, inverse ? 2 : 3, inverse ? 2 : 5,
+                                 inverse ? "a point u v" : "a point x y z, or face and weights of its corners")) {}
+
+    const std::vector<NumberRow>& rows() const { return rows_; }
+
+    /// The place of "face b0 b1 b2" or, on a quad, "face b0 b1 b2 b3".
+    MeshPoint place(const NumberRow& row) const {
+        const std::vector<double>& n = row.numbers;
+        if (!(n[0] >= 0 && n[0] < mesh_.face_count() && n[0] == std::floor(n[0])))
+            fail(row, fmt::format("{} is not a face from 0 to {}", n[0], mesh_.face_count() - 1));
+        const int face = static_cast<int>(n[0]);
+        const auto corners = mesh_.faces[face];
+        if (n.size() != corners.size() + 1)
+            fail(row, fmt::format("face {} has {} corners, {} are given", face, corners.size(),
+                                  counted(n.size() - 1, "weight", "weights")));
+        double sum = 0;
+        std::size_t left_out = 3;  // of a quad, a corner of weight 0
+        for (std::size_t j = 0; j < corners.size(); ++j) {
+            const double weight = n[j + 1];
+            if (!(weight >= -kWeightTolerance)) fail(row, fmt::format("the weight {} is negative", weight));
+            sum += weight;
+            if (weight == 0) left_out = j;
+        }
+        if (!(std::abs(sum - 1) <= kWeightTolerance)) fail(row, fmt::format("the weights sum up to {}, not 1", sum));
+        if (corners.size() == 4 && n[left_out + 1] != 0)
+            fail(row, "a quad is two triangles, so one of the four weights must be 0");
+        MeshPoint place{face, {}, {}};
+        for (std::size_t j = 0, i = 0; j < corners.size(); ++j) {
+            if (corners.size() == 4 && j == left_out) continue;
+            place.vertices[i] = corners[j];
+            place.barycentric[i++] = n[j + 1];
+        }
+        return place;
+    }
+
+    Eigen::Vector3d point(const NumberRow& row) const {
+        require_finite(row);
+        return {row.numbers[0], row.numbers[1], row.numbers[2]};
+    }
+
+    Complex image(const NumberRow& row) const {
+        require_finite(row);
+        return {row.numbers[0], row.numbers[1]};
+    }
+
+    [[noreturn]] void fail(const NumberRow& row, const std::string& what, Cause cause = Cause::unreadable,
+                           const std::string& next_step = "repair the line") const {
+        throw Error(cause, fmt::format("{}:{}: {}", path_, row.line, what), next_step,
+                    {static_cast<int>(row.line) - 1});
+    }
+
+  private:
+    void require_finite(const NumberRow& row) const {
+        for (const double number : row.numbers)
+            if (!std::isfinite(number)) fail(row, "a coordinate is not finite");
+    }
+
+    std::string path_;
+    const Mesh& mesh_;
+    std::vector<NumberRow> rows_;
+};
+
+class Apply final : public Command {
+  public:
+    explicit Apply(CLI::App& parent) {
+        CLI::App* app = parent.add_subcommand("apply", "a map, or its inverse, at any points: linear on triangles");
+        app->add_option("MAP", map_, "a mesh whose texture coordinates are the map, as `map` writes it; seams allowed")
+            ->required();
+        app->add_option("POINTS", points_,
+                        "a line each: `face b0 b1 b2` with weights of the face's corners (of a quad `b0 b1 b2 b3`, one "
+                        "of them 0), or `x y z`, for which the nearest point of the surface is taken; with --inverse "
+                        "`u v`")
+            ->required();
+        app->add_option(
+               "-o,--output", output_,
+               "lines `u v`; with --inverse `face b0 b1 b2` (of quads four weights), which can be POINTS again")
+            ->required()
+            ->type_name("OUT");
+        app->add_flag("--inverse", inverse_, "from the plane back to the surface");
+        app->add_flag("--positions", positions_, "with --inverse write `x y z` instead of faces and weights");
+        app->add_flag("--quiet", quiet_, "print nothing but errors");
+        app->footer(kExitCodes);
+    }
+
+    int run() override {
+        if (positions_ && !inverse_)
+            throw Error(Cause::bad_option, "--positions belongs to --inverse", "leave it out, or give --inverse");
+        check_files({{"MAP", map_}, {"POINTS", points_}}, {{"-o", output_}});
+        std::vector<std::string> warnings;
+        const Mesh mesh = load(map_, warnings);
+        const Surface source(mesh);
+        add_findings(source.findings, warnings);
+        const Positions corners = texture_corners(mesh);
+        if (const std::size_t folded = distortion_to_corners(mesh, corners).flipped.size(); folded && inverse_)
+            warnings.push_back(counted(folded, "face is flipped", "faces are flipped") +
+                               ": where the image overlaps itself, the place on the first face is taken");
+        const MapEvaluation map = MapEvaluation::of_corners(mesh, corners);
+        const PointFile points(points_, mesh, inverse_);
+        write_atomically(output_, inverse_ ? places(map, mesh, points) : images(map, points));
+        if (!quiet_) {
+            fmt::print("{}", counted(points.rows().size(), "point", "points"));
+            if (farthest_ > 0) fmt::print(", the farthest {:.3g} away from the surface", farthest_);
+            fmt::print("\nwrote {}\n", output_);
+            for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
+        }
+        return 0;
+    }
+
+  private:
+    std::string images(const MapEvaluation& map, const PointFile& points) {
+        std::string text;
+        for (const NumberRow& row : points.rows()) {
+            MeshPoint place;
+            if (row.numbers.size() == 3) {
+                const MapEvaluation::Nearest nearest = map.nearest(points.point(row));
+                farthest_ = std::max(farthest_, nearest.distance);
+                place = nearest.place;
+            } else {
+                place = points.place(row);
+            }
+            const Complex image = map.image(place);
+            text += fmt::format("{} {}\n", image.real(), image.imag());
+        }
+        return text;
+    }
+
+    std::string places(const MapEvaluation& map, const Mesh& mesh, const PointFile& points) const {
+        std::vector<Complex> images;
+        for (const NumberRow& row : points.rows()) images.push_back(points.image(row));
+        std::vector<MeshPoint> found;
+        try {
+            found = map.preimages(images);
+        } catch (const Error& error) {
+            if (error.indices().empty()) throw;
+            const std::size_t count = error.indices().size();
+            points.fail(points.rows()[error.indices()[0]],
+                        "the point lies outside the image of the map" +
+                            (count > 1 ? fmt::format(", one of {} that do", count) : std::string()),
+                        error.cause(), "only points of the image have a place on the surface");
+        }
+        std::string text;
+        for (const MeshPoint& place : found) text += positions_ ? position(mesh, place) : weights(mesh, place);
+        return text;
+    }
+
+    static std::string position(const Mesh& mesh, const MeshPoint& place) {
+        Eigen::Vector3d p = Eigen::Vector3d::Zero();
+        for (int j = 0; j < 3; ++j) p += place.barycentric[j] * mesh.point(place.vertices[j]);
+        return fmt::format("{} {} {}\n", p.x(), p.y(), p.z());
+    }
+
+    static std::string weights(const Mesh& mesh, const MeshPoint& place) {
+        std::string text = std::to_string(place.face);
+        for (const int v : mesh.faces[place.face]) {
+            double weight = 0;
+            for (int j = 0; j < 3; ++j)
+                if (place.vertices[j] == v) weight = place.barycentric[j];
+            text += fmt::format(" {}", weight);
+        }
+        return text + "\n";
+    }
+
+    std::string map_, points_, output_;
+    bool inverse_ = false, positions_ = false, quiet_ = false;
+    double farthest_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_apply(CLI::App& parent) {
+    return std::make_unique<Apply>(parent);
+}
+
+}  // namespace beltrami::cli

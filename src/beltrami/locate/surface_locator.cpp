@@ -1,0 +1,121 @@
+#include <beltrami/locate/surface_locator.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace beltrami {
+
+namespace {
+
+/// A leaf holds no more triangles.
+constexpr int kLeaf = 4;
+
+double squared_distance(const std::array<Eigen::Array3d, 2>& box, const Eigen::Vector3d& point) {
+    return (box[0] - point.array()).max(point.array() - box[1]).max(0.0).square().sum();
+}
+
+/// Weights of the corners of the triangle's point nearest to p, by the regions of its corners, edges and inside
+/// (Ericson, Real-Time Collision Detection, 5.1.5).
+std::array<double, 3> nearest_weights(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                                      const Eigen::Vector3d& c) {
+    const Eigen::Vector3d ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
+    const double d1 = ab.dot(ap), d2 = ac.dot(ap);
+    if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
+    const double d3 = ab.dot(bp), d4 = ac.dot(bp);
+    if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
+    const double d5 = ab.dot(cp), d6 = ac.dot(cp);
+    if (d6 >= 0 && d5 <= d6) return {0, 0, 1};
+    const double of_c = d1 * d4 - d3 * d2, of_b = d5 * d2 - d1 * d6, of_a = d3 * d6 - d5 * d4;
+    if (of_c <= 0 && d1 >= 0 && d3 <= 0) {
+        const double t = d1 / (d1 - d3);
+        return {1 - t, t, 0};
+    }
+    if (of_b <= 0 && d2 >= 0 && d6 <= 0) {
+        const double t = d2 / (d2 - d6);
+        return {1 - t, 0, t};
+    }
+    if (of_a <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
+        const double t = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+        return {0, 1 - t, t};
+    }
+    const double sum = of_a + of_b + of_c, v = of_b / sum, w = of_c / sum;
+    return {1 - v - w, v, w};
+}
+
+}  // namespace
+
+SurfaceLocator::SurfaceLocator(const Positions& positions, std::vector<std::array<int, 3>> triangles)
+    : triangles_(std::move(triangles)), order_(triangles_.size()) {
+    points_.reserve(static_cast<std::size_t>(positions.rows()));
+    for (Eigen::Index v = 0; v < positions.rows(); ++v)
+        points_.emplace_back(positions(v, 0), positions(v, 1), positions.cols() > 2 ? positions(v, 2) : 0.0);
+    std::iota(order_.begin(), order_.end(), 0);
+    nodes_.reserve(order_.size());
+    build(0, static_cast<int>(order_.size()));
+}
+
+SurfaceLocator::Box SurfaceLocator::box_of(int triangle) const {
+    const auto& [a, b, c] = triangles_[triangle];
+    return {points_[a].cwiseMin(points_[b]).cwiseMin(points_[c]).array(),
+            points_[a].cwiseMax(points_[b]).cwiseMax(points_[c]).array()};
+}
+
+void SurfaceLocator::build(int first, int last) {
+    const std::size_t node = nodes_.size();
+    Box box = box_of(order_[first]);
+    for (int i = first + 1; i < last; ++i) {
+        const Box other = box_of(order_[i]);
+        box = {box[0].min(other[0]), box[1].max(other[1])};
+    }
+    nodes_.push_back({box, first, last});
+    if (last - first <= kLeaf) return;
+    Eigen::Index axis = 0;
+    (box[1] - box[0]).maxCoeff(&axis);
+    const auto centre = [&](int t) {
+        const auto& [a, b, c] = triangles_[t];
+        return points_[a][axis] + points_[b][axis] + points_[c][axis];
+    };
+    const int middle = first + (last - first) / 2;
+    std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + last,
+                     [&](int s, int t) { return centre(s) != centre(t) ? centre(s) < centre(t) : s < t; });
+    build(first, middle);
+    nodes_[node].right = static_cast<int>(nodes_.size());
+    build(middle, last);
+}
+
+SurfaceLocator::Place SurfaceLocator::on_triangle(int triangle, const Eigen::Vector3d& point) const {
+    const auto& [a, b, c] = triangles_[triangle];
+    const std::array<double, 3> weights = nearest_weights(point, points_[a], points_[b], points_[c]);
+    const Eigen::Vector3d there = weights[0] * points_[a] + weights[1] * points_[b] + weights[2] * points_[c];
+    return {triangle, weights, (there - point).norm()};
+}
+
+SurfaceLocator::Place SurfaceLocator::nearest(const Eigen::Vector3d& point) const {
+    Place best;
+    best.distance = std::numeric_limits<double>::infinity();
+    int stack[128], depth = 0;
+    stack[depth++] = 0;
+    while (depth) {
+        const int at = stack[--depth];
+        const Node& node = nodes_[at];
+        if (squared_distance(node.box, point) > best.distance * best.distance) continue;
+        if (node.right == 0) {
+            for (int i = node.first; i < node.last; ++i) {
+                const Place place = on_triangle(order_[i], point);
+                if (place.distance < best.distance ||
+                    (place.distance == best.distance && place.triangle < best.triangle))
+                    best = place;
+            }
+            continue;
+        }
+        // The nearer child first: it narrows the search most.
+        const int left = at + 1, right = node.right;
+        const bool left_first = squared_distance(nodes_[left].box, point) <= squared_distance(nodes_[right].box, point);
+        stack[depth++] = left_first ? right : left;
+        stack[depth++] = left_first ? left : right;
+    }
+    return best;
+}
+
+}  // namespace beltrami

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <beltrami/mesh/mesh.h>
+
+namespace beltrami {
+
+/// Finds the point of a triangle mesh in space that is nearest to a given one: a tree of bounding boxes, halved at the
+/// median of their longest side.
+class SurfaceLocator {
+  public:
+    /// A triangle and weights of its corners, from 0 to 1 and 1 in all.
+    struct Place {
+        int triangle = -1;
+        std::array<double, 3> barycentric{};
+        double distance = 0;  ///< of the point that was looked for
+    };
+
+    /// @param positions #V×3 or #V×2, finite; copied
+    /// @param triangles indices of positions; at least one triangle
+    SurfaceLocator(const Positions& positions, std::vector<std::array<int, 3>> triangles);
+
+    /// Of several nearest triangles the first.
+    /// @param point finite
+    Place nearest(const Eigen::Vector3d& point) const;
+
+  private:
+    using Box = std::array<Eigen::Array3d, 2>;
+    /// The left child of a node follows it.
+    struct Node {
+        Box box;
+        int first, last;  ///< its triangles in order_
+        int right = 0;    ///< the right child; 0: a leaf
+    };
+
+    Box box_of(int triangle) const;
+    void build(int first, int last);
+    Place on_triangle(int triangle, const Eigen::Vector3d& point) const;
+
+    std::vector<Eigen::Vector3d> points_;
+    std::vector<std::array<int, 3>> triangles_;
+    std::vector<int> order_;
+    std::vector<Node> nodes_;
+};
+
+}  // namespace beltrami
