@@ -27,9 +27,11 @@
 #include <beltrami/homotopy/continuation.h>
 #include <beltrami/homotopy/homotopy.h>
 #include <beltrami/homotopy/twist.h>
+#include <beltrami/io/coefficient_file.h>
 #include <beltrami/io/read_mesh.h>
 #include <beltrami/io/target_file.h>
 #include <beltrami/io/write_mesh.h>
+#include <beltrami/locate/map_evaluation.h>
 #include <beltrami/locate/planar_locator.h>
 #include <beltrami/mesh/cut.h>
 #include <beltrami/mesh/diagnosis.h>
@@ -42,6 +44,7 @@
 #include <beltrami/meshing/planar_domains.h>
 #include <beltrami/meshing/quality.h>
 #include <beltrami/operators/distortion.h>
+#include <beltrami/operators/frames.h>
 #include <beltrami/operators/surface.h>
 #include <beltrami/plane/disk_moebius.h>
 #include <beltrami/plane/target_curve.h>

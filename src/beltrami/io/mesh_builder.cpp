@@ -59,6 +59,9 @@ LoadedMesh MeshBuilder::finish() {
         result.mesh.texture = TextureCoordinates{rows_of(texture_points_, 2), std::move(texture_corners_)};
     }
     result.mesh.faces = std::move(faces_);
+    if (!face_mu_.empty())
+        result.face_mu =
+            Eigen::Map<const Eigen::VectorXcd>(face_mu_.data(), static_cast<Eigen::Index>(face_mu_.size()));
     result.warnings = std::move(warnings_);
     if (kept_out_ > most_named) {
         result.warnings.push_back(

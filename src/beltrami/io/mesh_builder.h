@@ -25,6 +25,8 @@ class MeshBuilder {
     /// @param coordinates as many as the dimension
     void add_vertex(std::span<const double> coordinates);
     void add_texture_point(double u, double v);
+    /// The coefficient of the next face to be added. If one face has one, all must.
+    void add_face_mu(Complex mu) { face_mu_.push_back(mu); }
     /// Adds a triangle or a quad.
     /// @param vertices indices of its corners, 3 or 4
     /// @param texture  as many indices of texture points, -1 for none; or nothing at all
@@ -57,6 +59,7 @@ class MeshBuilder {
     FaceList faces_;
     std::vector<double> texture_points_;
     std::vector<int> texture_corners_;
+    std::vector<Complex> face_mu_;
     bool texture_used_ = false;
     bool texture_per_vertex_ = false;
     std::int64_t kept_out_ = 0;

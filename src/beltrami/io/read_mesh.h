@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,7 +13,8 @@ namespace beltrami {
 /// A mesh as its file has it, and what the file held that the mesh does not.
 struct LoadedMesh {
     Mesh mesh;
-    std::vector<std::string> warnings;  ///< sentences without a final full stop; empty if all was taken
+    std::optional<Eigen::VectorXcd> face_mu = {};  ///< #F from a PLY's face properties mu_re and mu_im
+    std::vector<std::string> warnings;             ///< sentences without a final full stop; empty if all was taken
 };
 
 /// Reads a mesh in the format its extension names: .obj, .ply, .off or .stl, in either case.
@@ -33,7 +35,8 @@ LoadedMesh read_mesh(const std::filesystem::path& path);
 LoadedMesh read_obj(std::string_view bytes, const std::string& name);
 
 /// Reads a PLY held in memory: ascii or binary of either byte order. Without a property z the positions are #V×2.
-/// The vertex properties (s, t), (u, v) or (texture_u, texture_v) become texture coordinates, one point a vertex.
+/// The vertex properties (s, t), (u, v) or (texture_u, texture_v) become texture coordinates, one point a vertex;
+/// of the face properties mu_re and mu_im are kept.
 /// @param name what errors and warnings call the file
 /// @throw Error unreadable
 LoadedMesh read_ply(std::string_view bytes, const std::string& name);

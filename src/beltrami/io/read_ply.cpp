@@ -255,6 +255,7 @@ void read_faces(Body& body, const Element& element, std::int64_t vertex_count, M
     std::optional<std::size_t> corners = element.find("vertex_indices", true);
     if (!corners) corners = element.find("vertex_index", true);
     if (!corners) body.fail("the faces have no list vertex_indices");
+    const std::optional<std::size_t> re = element.find("mu_re"), im = element.find("mu_im");
     std::vector<double> values(element.properties.size());
     std::vector<double> list;
     std::vector<int> vertices;
@@ -269,6 +270,7 @@ void read_faces(Body& body, const Element& element, std::int64_t vertex_count, M
             }
             vertices.push_back(static_cast<int>(index));
         }
+        if (re && im && vertices.size() <= 4) builder.add_face_mu({values[*re], values[*im]});
         builder.add_or_keep_out(vertices, {}, body);
     }
 }
