@@ -62,8 +62,9 @@ std::vector<double> guarded_increments(std::vector<double> wanted, const std::ve
     return wanted;
 }
 
-SlidingBoundary::SlidingBoundary(const Surface& source, std::vector<SlidingLoop> loops)
-    : source_(source), loops_(std::move(loops)) {
+SlidingBoundary::SlidingBoundary(const Surface& source, std::vector<SlidingLoop> loops, BoundaryCondition prescribed)
+    : source_(source), loops_(std::move(loops)), prescribed_(std::move(prescribed)) {
+    validate(prescribed_, source);
     const auto& boundary = source.topology.boundary_loops;
     std::vector<char> seen(boundary.size(), 0);
     for (const SlidingLoop& l : loops_) {
@@ -93,8 +94,26 @@ SlidingBoundary::SlidingBoundary(const Surface& source, std::vector<SlidingLoop>
         rim.base.assign(n, 0.0);
         rim.directions.assign(n, 0.0);
     }
-    for (std::size_t i = 0; i < seen.size(); ++i)
-        if (!seen[i]) throw Error(Cause::bad_boundary, "boundary loop " + std::to_string(i) + " has no target curve");
+    require_whole_boundary(seen);
+}
+
+/// @param slides of every loop
+void SlidingBoundary::require_whole_boundary(const std::vector<char>& slides) const {
+    std::vector<char> is_prescribed(source_.mesh.vertex_count(), 0);
+    for (const int v : prescribed_.vertices) is_prescribed[v] = 1;
+    for (std::size_t l = 0; l < slides.size(); ++l)
+        for (const int v : source_.topology.boundary_loops[l])
+            if (!slides[l] && !is_prescribed[v])
+                throw Error(Cause::bad_boundary, "boundary loop " + std::to_string(l) + " has no target curve",
+                            "give it one, or prescribe all of its vertices", {v});
+    for (const SlidingLoop& l : loops_) {
+        const auto& vertices = source_.topology.boundary_loops[l.loop];
+        for (std::size_t i = 0; i < vertices.size(); ++i)
+            if (is_prescribed[vertices[i]] && !l.held[i])
+                throw Error(Cause::bad_boundary,
+                            "vertex " + std::to_string(vertices[i]) + " is prescribed and slides along its curve",
+                            "hold it, or leave it out of what is prescribed", {vertices[i]});
+    }
 }
 
 std::vector<Freedom> SlidingBoundary::freedoms() const {
@@ -105,6 +124,8 @@ std::vector<Freedom> SlidingBoundary::freedoms() const {
         for (std::size_t i = 0; i < vertices.size(); ++i)
             result[vertices[i]] = l.held[i] ? Freedom::fixed : Freedom::sliding;
     }
+    for (const int v : prescribed_.vertices) result[v] = Freedom::fixed;
+    for (const auto& line : prescribed_.lines) result[line.vertex] = Freedom::sliding;
     return result;
 }
 
@@ -112,6 +133,11 @@ void SlidingBoundary::place(Eigen::VectorXcd& map) const {
     for (const SlidingLoop& l : loops_) {
         const auto& vertices = source_.topology.boundary_loops[l.loop];
         for (std::size_t i = 0; i < vertices.size(); ++i) map[vertices[i]] = l.curve.point(l.parameters[i]);
+    }
+    for (std::size_t i = 0; i < prescribed_.vertices.size(); ++i) map[prescribed_.vertices[i]] = prescribed_.images[i];
+    for (const auto& line : prescribed_.lines) {
+        const Complex along = line.direction / std::abs(line.direction);
+        map[line.vertex] = line.point + along * std::real(std::conj(along) * (map[line.vertex] - line.point));
     }
 }
 
@@ -150,6 +176,8 @@ SlidingBoundary::Linearized SlidingBoundary::linearized(const Eigen::VectorXcd& 
             result.extra_diagonal[v] = rim.stuck[i] ? kHold : std::real(std::conj(force[v]) * place.curvature);
         }
     }
+    for (const auto& line : prescribed_.lines)
+        result.directions[line.vertex] = line.direction / std::abs(line.direction);
     return result;
 }
 

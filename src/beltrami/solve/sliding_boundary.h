@@ -7,17 +7,17 @@
 
 namespace beltrami {
 
-/// A boundary loop whose vertices lie on a curve and slide along it.
+/// A boundary loop whose vertices lie on a curve and slide along it, but for those that are held.
 struct SlidingLoop {
     int loop = 0;       ///< of topology.boundary_loops
     TargetCurve curve;  ///< runs as the loop does: the image is on its left
     /// Arc length of every vertex of the loop, in its order: ascending, the last less than length() above the first.
     std::vector<double> parameters;
-    std::vector<char> held;  ///< 1 for vertices that stay where they are
+    std::vector<char> held;  ///< 1 for vertices that stay where they are: marks, arcs that are prescribed
 };
 
 /// Boundary vertices that slide along curves, in steps that keep their order: what a linear solve may do with them, and
-/// how they move along the true curves.
+/// how they move along the true curves. Other loops, arcs and inner vertices may be prescribed beside them.
 ///
 /// Without a safeguard the vertices of a loop can all run to one arc, which is then left with winding number 0: the
 /// energy looks excellent, the map is none. So the increments of the parameters between neighbours stay positive in
@@ -25,21 +25,27 @@ struct SlidingLoop {
 /// others.
 class SlidingBoundary {
   public:
-    /// @param source kept by reference
-    /// @param loops  one for every boundary loop
-    /// @throw Error bad_boundary naming loops that are missing or whose parameters do not ascend
-    SlidingBoundary(const Surface& source, std::vector<SlidingLoop> loops);
+    /// @param source     kept by reference
+    /// @param loops      the boundary loops that slide
+    /// @param prescribed the vertices of all other loops; held vertices of these that are to lie elsewhere than at
+    /// their
+    ///                   parameters; vertices inside that are pinned or held to lines
+    /// @throw Error bad_boundary naming loops that are missing or whose parameters do not ascend, and prescribed
+    ///        vertices that slide
+    SlidingBoundary(const Surface& source, std::vector<SlidingLoop> loops, BoundaryCondition prescribed = {});
 
     const std::vector<SlidingLoop>& loops() const { return loops_; }
-    /// #V: vertices inside are free, held ones fixed, the others of the boundary slide.
+    /// #V: held and prescribed vertices are fixed, those of lines and the others of sliding loops slide, all others are
+    /// free.
     std::vector<Freedom> freedoms() const;
-    /// Puts boundary vertices on their places.
+    /// Puts vertices of the boundary and prescribed ones on their places, those of lines on their lines.
     void place(Eigen::VectorXcd& map) const;
 
     /// What a linear solve needs to know.
     struct Linearized {
-        Eigen::VectorXcd directions;     ///< #V unit tangents, 0 inside
-        Eigen::VectorXd extra_diagonal;  ///< #V, 0 inside: the curvature of the energy that comes from the curves'
+        Eigen::VectorXcd directions;  ///< #V unit tangents, directions of lines; 0 elsewhere
+        /// #V the curvature of the energy that comes from the curves', 0 inside.
+        Eigen::VectorXd extra_diagonal;
     };
     /// @param force #V half the gradient of the energy at the present map (BeltramiSolver::gradient). At a sharp corner
     ///              of its curve it decides along which side a vertex leaves, or that it stays.
@@ -64,8 +70,11 @@ class SlidingBoundary {
         std::vector<char> stuck;      ///< at a corner that the energy does not let go
         std::vector<Complex> base, directions;
     };
+    void require_whole_boundary(const std::vector<char>& slides) const;
+
     const Surface& source_;
     std::vector<SlidingLoop> loops_;
+    BoundaryCondition prescribed_;
     std::vector<Rim> rims_;
 };
 

@@ -6,8 +6,9 @@
 namespace beltrami {
 
 /// The f-step of boundaries that slide: Newton's method for Σ A|∂̄f − ν∂f|²/(1−|ν|²) over all f whose boundary vertices
-/// lie on their curves, one step at a time; as ν settles, so does f. Interior vertices are free, boundary vertices have
-/// one unknown along their tangent, the curves' curvature enters the diagonal, and vertices move along the true curves.
+/// lie on their curves, one step at a time; as ν settles, so does f. Interior vertices are free, sliding ones have one
+/// unknown along their tangent or line, prescribed ones none; the curves' curvature enters the diagonal, and vertices
+/// move along the true curves.
 class SlidingMapStep final : public MapStep {
   public:
     /// @param source, boundary kept by reference; boundary holds where the vertices are

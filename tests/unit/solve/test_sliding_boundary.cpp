@@ -8,6 +8,7 @@
 #include <beltrami/generate/round_domains.h>
 #include <beltrami/mesh/planar.h>
 #include <beltrami/solve/sliding_boundary.h>
+#include <beltrami/solve/sliding_map_step.h>
 
 using namespace beltrami;
 
@@ -182,4 +183,107 @@ TEST(SlidingBoundary, RefusesLoopsThatAreMissingOrOutOfOrder) {
     other.held.resize(other.parameters.size(), 0);
     std::swap(other.parameters[2], other.parameters[3]);
     EXPECT_THROW(SlidingBoundary(surface, {loop, other}), Error);
+}
+
+namespace {
+
+/// A ring: loop 0 the unit circle, loop 1 that of radius .4, both at their own angles.
+Surface ring() {
+    return Surface(annulus(0.4, 1, 24));
+}
+
+SlidingLoop inner_loop(const Surface& surface, double radius) {
+    const Eigen::VectorXcd z = planar_coordinates(surface.mesh);
+    SlidingLoop loop{1, TargetCurve::circle(0, radius).reversed(), {}, {}};
+    for (const int v : surface.topology.boundary_loops[1]) {
+        const double s = loop.curve.wrap(-radius * std::arg(z[v]));
+        loop.parameters.push_back(
+            loop.parameters.empty() ? s : loop.parameters.back() + loop.curve.ahead(loop.parameters.back(), s));
+    }
+    loop.held.assign(loop.parameters.size(), 0);
+    return loop;
+}
+
+BoundaryCondition outer_loop_stays(const Surface& surface) {
+    const Eigen::VectorXcd z = planar_coordinates(surface.mesh);
+    BoundaryCondition result;
+    for (const int v : surface.topology.boundary_loops[0]) result.pin(v, z[v]);
+    return result;
+}
+
+int inner_vertex(const Surface& surface, int count) {
+    for (int v = 0;; ++v)
+        if (!surface.topology.on_boundary[v] && count-- == 0) return v;
+}
+
+}  // namespace
+
+TEST(SlidingBoundary, OtherLoopsAndInnerVerticesMayBePrescribed) {
+    const Surface surface = ring();
+    BoundaryCondition prescribed = outer_loop_stays(surface);
+    const int pin = inner_vertex(surface, 0), line = inner_vertex(surface, 30);
+    prescribed.pin(pin, Complex(0.5, 0.1));
+    prescribed.pin_to_line(line, Complex(0, 0.5), Complex(2, 0));
+    SlidingBoundary boundary(surface, {inner_loop(surface, 0.3)}, prescribed);
+    const std::vector<Freedom> freedoms = boundary.freedoms();
+    for (const int v : surface.topology.boundary_loops[0]) EXPECT_EQ(freedoms[v], Freedom::fixed);
+    for (const int v : surface.topology.boundary_loops[1]) EXPECT_EQ(freedoms[v], Freedom::sliding);
+    EXPECT_EQ(freedoms[pin], Freedom::fixed);
+    EXPECT_EQ(freedoms[line], Freedom::sliding);
+    Eigen::VectorXcd map = planar_coordinates(surface.mesh);
+    const Complex before = map[line];
+    boundary.place(map);
+    EXPECT_EQ(map[pin], Complex(0.5, 0.1));
+    EXPECT_NEAR(std::abs(map[line] - Complex(before.real(), 0.5)), 0, 1e-15);
+    for (const int v : surface.topology.boundary_loops[1]) EXPECT_NEAR(std::abs(map[v]), 0.3, 1e-15);
+    EXPECT_EQ(boundary.linearized(Eigen::VectorXcd::Zero(map.size())).directions[line], Complex(1, 0));
+}
+
+TEST(SlidingBoundary, HeldVerticesMayLieOffTheCurve) {
+    const Surface surface(disk(4));
+    SlidingLoop loop = circle_loop(surface);
+    for (int i = 3; i <= 6; ++i) loop.held[i] = 1;
+    const int v = surface.topology.boundary_loops[0][4];
+    BoundaryCondition prescribed;
+    prescribed.pin(v, Complex(1.5, 1));
+    SlidingBoundary boundary(surface, {loop}, prescribed);
+    Eigen::VectorXcd map = planar_coordinates(surface.mesh);
+    boundary.place(map);
+    EXPECT_EQ(map[v], Complex(1.5, 1));
+    EXPECT_EQ(map[surface.topology.boundary_loops[0][5]], loop.curve.point(loop.parameters[5]));
+    moved_by(surface, boundary, std::vector<double>(loop.parameters.size(), 0.05));
+    EXPECT_EQ(boundary.loops()[0].parameters[4], loop.parameters[4]);
+    EXPECT_GT(boundary.loops()[0].parameters[8], loop.parameters[8]);
+}
+
+TEST(SlidingBoundary, RefusesPrescribedVerticesThatSlide) {
+    const Surface surface = ring();
+    const int v = surface.topology.boundary_loops[1][0];
+    BoundaryCondition prescribed = outer_loop_stays(surface);
+    prescribed.pin(v, 0.3);
+    EXPECT_THROW(SlidingBoundary(surface, {inner_loop(surface, 0.3)}, prescribed), Error);
+    BoundaryCondition less = outer_loop_stays(surface);
+    less.vertices.pop_back();
+    less.images.pop_back();
+    EXPECT_THROW(SlidingBoundary(surface, {inner_loop(surface, 0.3)}, less), Error);
+}
+
+TEST(SlidingMapStep, SlidesToTheConformalMapBesideAPrescribedLoop) {
+    // The identity of the outer circle; the inner one starts turned and stretched unevenly.
+    const Surface surface = ring();
+    const Eigen::VectorXcd z = planar_coordinates(surface.mesh);
+    SlidingLoop loop = inner_loop(surface, 0.4);
+    for (double& s : loop.parameters) s += 0.05 * std::sin(s / 0.4) + 0.1;
+    BoundaryCondition prescribed = outer_loop_stays(surface);
+    const int line = inner_vertex(surface, 17);
+    prescribed.pin_to_line(line, z[line], Complex(1, 1));
+    SlidingBoundary boundary(surface, {loop}, prescribed);
+    SlidingMapStep step(surface, boundary, 8);
+    Eigen::VectorXcd map = z;
+    boundary.place(map);
+    const Eigen::VectorXcd nu = Eigen::VectorXcd::Zero(surface.operators.sample_count());
+    for (int i = 0; i < 12; ++i) step.solve(nu, map, 1e-11);
+    EXPECT_LT(step.movement(), 1e-9);
+    EXPECT_LT((map - z).cwiseAbs().maxCoeff(), 1e-8);
+    for (const int v : surface.topology.boundary_loops[0]) EXPECT_EQ(map[v], z[v]);
 }
