@@ -9,12 +9,14 @@
 #include <beltrami/baselines/baseline.h>
 #include <beltrami/baselines/t_map_scheme.h>
 #include <beltrami/certificate/certificate.h>
+#include <beltrami/charts/boundary_correspondence.h>
 #include <beltrami/charts/boundary_values.h>
 #include <beltrami/charts/chart_places.h>
 #include <beltrami/charts/circle_domain_chart.h>
 #include <beltrami/charts/circle_matching.h>
 #include <beltrami/charts/domain_chart.h>
 #include <beltrami/charts/round_disk.h>
+#include <beltrami/charts/uniformization.h>
 #include <beltrami/constraints/boundary_corners.h>
 #include <beltrami/constraints/boundary_feasibility.h>
 #include <beltrami/constraints/prescribed_split.h>
@@ -39,6 +41,7 @@
 #include <beltrami/mesh/planar.h>
 #include <beltrami/mesh/subdivide.h>
 #include <beltrami/mesh/submesh.h>
+#include <beltrami/mesh/texture_map.h>
 #include <beltrami/mesh/topology.h>
 #include <beltrami/meshing/fill_holes.h>
 #include <beltrami/meshing/planar_domains.h>
@@ -56,6 +59,7 @@
 #include <beltrami/targets/target_mesh.h>
 #include <beltrami/teichmuller/certify.h>
 #include <beltrami/teichmuller/distance.h>
+#include <beltrami/teichmuller/extremal_between.h>
 #include <beltrami/teichmuller/extremal_map.h>
 #include <beltrami/teichmuller/extremal_onto.h>
 #include <beltrami/teichmuller/extremal_solver.h>

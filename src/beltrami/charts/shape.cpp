@@ -1,0 +1,35 @@
+#include <beltrami/charts/shape.h>
+
+#include <utility>
+
+namespace beltrami {
+
+Shape::Shape(const Surface& surface) : surface_(surface) {}
+
+const Chart& Shape::chart(int outer) const {
+    const std::scoped_lock lock(mutex_);
+    if (const auto kept = charts_.find(outer); kept != charts_.end()) return kept->second;
+    return charts_.emplace(outer, domain_chart(surface_, outer)).first->second;
+}
+
+const CircleDomainChart& Shape::circles(int outer) const {
+    const std::scoped_lock lock(mutex_);
+    if (const auto kept = circles_.find(outer); kept != circles_.end()) return kept->second;
+    return circles_.emplace(outer, circle_domain_chart(surface_, outer)).first->second;
+}
+
+const Shape& Shape::without_bridges() const {
+    const std::scoped_lock lock(mutex_);
+    if (!examined_) {
+        SplitProblem split = split_bridges(surface_);
+        if (split.split_edges > 0) {
+            split_surface_ = std::make_unique<const Surface>(surface_of(split.mesh, split.metric));
+            split_ = std::make_unique<const Shape>(*split_surface_);
+            bridges_ = std::move(split);
+        }
+        examined_ = true;
+    }
+    return split_ ? *split_ : *this;
+}
+
+}  // namespace beltrami

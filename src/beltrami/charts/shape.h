@@ -1,0 +1,48 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include <beltrami/charts/circle_domain_chart.h>
+#include <beltrami/constraints/prescribed_split.h>
+
+namespace beltrami {
+
+/// A surface with its conformal charts, each computed when it is first asked for and then kept: what boundary values,
+/// maps and distances of one surface share. May be asked from several threads.
+class Shape {
+  public:
+    /// @param surface kept by reference
+    explicit Shape(const Surface& surface);
+    Shape(Surface&&) = delete;
+    Shape(const Shape&) = delete;
+
+    const Surface& surface() const { return surface_; }
+
+    /// domain_chart(surface(), outer). @throw Error as it does
+    const Chart& chart(int outer = 0) const;
+
+    /// circle_domain_chart(surface(), outer). @throw Error as it does
+    const CircleDomainChart& circles(int outer = 0) const;
+
+    /// The same surface where no edge across it joins two boundary vertices (split_bridges); this one if there is no
+    /// such edge.
+    const Shape& without_bridges() const;
+    /// How it was split; nothing if there was no need.
+    /// @pre without_bridges() was called
+    const std::optional<SplitProblem>& bridges() const { return bridges_; }
+
+  private:
+    const Surface& surface_;
+    mutable std::recursive_mutex mutex_;
+    mutable std::map<int, Chart> charts_;
+    mutable std::map<int, CircleDomainChart> circles_;
+    mutable bool examined_ = false;  ///< for bridges
+    mutable std::optional<SplitProblem> bridges_;
+    mutable std::unique_ptr<const Surface> split_surface_;
+    mutable std::unique_ptr<const Shape> split_;
+};
+
+}  // namespace beltrami

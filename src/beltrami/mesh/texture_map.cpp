@@ -1,0 +1,35 @@
+#include <beltrami/mesh/texture_map.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <beltrami/base/error.h>
+
+namespace beltrami {
+
+Eigen::VectorXcd texture_map(const Mesh& mesh) {
+    if (!mesh.texture) throw Error(Cause::bad_mesh, "the mesh has no texture coordinates", "give a mesh with vt");
+    Eigen::VectorXcd map = Eigen::VectorXcd::Zero(mesh.vertex_count());
+    std::vector<char> known(static_cast<std::size_t>(mesh.vertex_count()), 0);
+    for (int c = 0; c < mesh.faces.corner_count(); ++c) {
+        const int v = mesh.faces.vertices()[c], t = mesh.texture->corners[c];
+        if (t < 0)
+            throw Error(Cause::bad_mesh,
+                        "vertex " + std::to_string(v) + " has no texture coordinates in one of its faces",
+                        "give vt at every corner", {v});
+        const Complex place(mesh.texture->points(t, 0), mesh.texture->points(t, 1));
+        if (!std::isfinite(place.real()) || !std::isfinite(place.imag()))
+            throw Error(Cause::bad_mesh, "the texture coordinates of vertex " + std::to_string(v) + " are not finite",
+                        "give two numbers", {v});
+        if (known[v] && map[v] != place)
+            throw Error(Cause::bad_mesh,
+                        "vertex " + std::to_string(v) + " has several texture coordinates: a seam runs through it",
+                        "give a map without seams, one vt a vertex", {v});
+        known[v] = 1;
+        map[v] = place;
+    }
+    return map;
+}
+
+}  // namespace beltrami

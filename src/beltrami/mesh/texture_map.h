@@ -1,0 +1,16 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <beltrami/mesh/mesh.h>
+
+namespace beltrami {
+
+/// The map to the plane that a mesh has as its texture coordinates, one point a vertex: what is written with a map as
+/// vt. 0 at vertices without faces.
+/// @return #V
+/// @throw Error bad_mesh if there are none, a corner lacks one, one is not finite, or a vertex has several (a seam),
+///        naming vertices
+Eigen::VectorXcd texture_map(const Mesh& mesh);
+
+}  // namespace beltrami
