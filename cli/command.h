@@ -36,6 +36,8 @@ std::unique_ptr<Command> make_info(CLI::App& parent);
 std::unique_ptr<Command> make_measure(CLI::App& parent);
 std::unique_ptr<Command> make_map(CLI::App& parent);
 std::unique_ptr<Command> make_flatten(CLI::App& parent);
+std::unique_ptr<Command> make_uniformize(CLI::App& parent);
+std::unique_ptr<Command> make_flow(CLI::App& parent);
 std::unique_ptr<Command> make_distance(CLI::App& parent);
 std::unique_ptr<Command> make_grid(CLI::App& parent);
 std::unique_ptr<Command> make_apply(CLI::App& parent);

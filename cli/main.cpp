@@ -85,6 +85,8 @@ int main(int argc, char** argv) {
                     "  beltrami grid face.obj --onto domain.json -o quads.obj   # a structured grid\n"
                     "  beltrami distance a.obj b.obj\n"
                     "  beltrami flatten face.obj -o flat.obj\n"
+                    "  beltrami uniformize holes.obj -o circles.obj   # circle domain and moduli\n"
+                    "  beltrami flow face.obj --mu mu.txt --boundary disk -o out.obj   # a given mu\n"
                     "  beltrami apply out.obj points.txt -o images.txt   # a map, or its inverse, at any points\n\n") +
         cli::kExitCodes);
     std::vector<std::pair<CLI::App*, std::unique_ptr<cli::Command>>> commands;
@@ -96,6 +98,8 @@ int main(int argc, char** argv) {
     add(cli::make_measure);
     add(cli::make_map);
     add(cli::make_flatten);
+    add(cli::make_uniformize);
+    add(cli::make_flow);
     add(cli::make_grid);
     add(cli::make_distance);
     add(cli::make_apply);

@@ -6,11 +6,13 @@
 #include "boundary_options.h"
 #include "command.h"
 #include "homotopy_options.h"
+#include "iteration_options.h"
 #include "map_methods.h"
 #include "metric_option.h"
 #include "onto_options.h"
 #include "output.h"
 #include "page.h"
+#include "start_map_option.h"
 
 namespace beltrami::cli {
 
@@ -44,8 +46,10 @@ class Map final : public Command {
             ->check(CLI::PositiveNumber)
             ->type_name("P");
         boundary_.add_to(*app);
-        onto_.add_to(*app);
+        onto_.add_to(*app, OntoTarget::Kinds::prescribed_too);
         homotopy_.add_to(*app);
+        start_map_.add_to(*app);
+        iteration_.add_to(*app);
         metric_.add_to(*app);
         std::vector<std::string> others = baseline_names();
         others.insert(others.end(), sliding_baseline_names().begin(), sliding_baseline_names().end());
@@ -72,6 +76,7 @@ class Map final : public Command {
         const Surface source = metric_.surface_of(std::move(mesh));
         add_findings(source.findings, record.warnings);
         record.source = source_record(source);
+        if (onto_.prescribes()) return run_onto_surface(source, start, record);
         if (onto_.given()) return run_onto_target(source, start, record);
         const BoundaryCondition boundary = boundary_.values(source);
 
@@ -91,13 +96,33 @@ class Map final : public Command {
     }
 
   private:
+    /// Onto a mesh on whose boundary that of the source is prescribed.
+    int run_onto_surface(const Surface& source, double start, Record& record) {
+        onto_.load(source, record.warnings);
+        ExtremalOptions options;
+        options.outer_loop = boundary_.outer_loop();
+        homotopy_.apply(source, options);
+        iteration_.apply(options);
+        options.start = start_map_.load(source.mesh, record.warnings);
+        BoundaryCondition boundary;
+        MethodResult result = run_between(source, onto_, std::move(options), start, !common_.quiet, record, boundary);
+        for (const std::string& other : compare_)
+            compare(result.split ? *result.split : source, boundary, other, result.pages, record);
+        return write_onto(source, std::move(result), record);
+    }
+
     int run_onto_target(const Surface& source, double start, Record& record) {
         onto_.load(source, record.warnings);
         OntoOptions options;
         options.outer_loop = boundary_.outer_loop();
         onto_.apply(options);
         homotopy_.apply(source, options);
+        iteration_.apply(options);
         MethodResult result = run_onto(source, onto_, std::move(options), start, !common_.quiet, record, compare_);
+        return write_onto(source, std::move(result), record);
+    }
+
+    int write_onto(const Surface& source, MethodResult result, const Record& record) const {
         const Surface& mapped = result.split ? *result.split : source;
         if (result.positions) {
             output_.write(mapped.mesh, *result.positions, result.map, result.distortion);
@@ -111,6 +136,22 @@ class Map final : public Command {
         return 0;
     }
 
+    void check_prescribed_onto() const {
+        const auto refuse = [](bool given, const std::string& what) {
+            if (given)
+                throw Error(Cause::bad_option, what + " says nothing where --correspondence prescribes the boundary",
+                            "leave one of them out");
+        };
+        refuse(boundary_.given(), "--boundary, --hole or --pin");
+        refuse(onto_.pairs_loops(), "--loops or --match");
+        refuse(onto_.has_marks(), "--marks or --mark-vertices");
+        refuse(certify_.has_value(), "--certify");
+        refuse(minimize_ != "K", "--minimize");
+        refuse(method_ != "extremal", "--method " + method_);
+        for (const std::string& other : compare_) refuse(slides(other), "--compare " + other);
+        iteration_.require_no_power();
+    }
+
     void check_onto() const {
         const auto refuse = [](bool given, const std::string& what) {
             if (given)
@@ -122,6 +163,9 @@ class Map final : public Command {
         refuse(minimize_ != "K", "--minimize");
         for (const std::string& other : compare_) refuse(!slides(other), "--compare " + other);
         refuse(method_ != "extremal", "--method " + method_);
+        if (start_map_.given())
+            throw Error(Cause::bad_option, "--start-map belongs to prescribed boundary values, with --onto they slide",
+                        "leave one of them out");
     }
 
     static bool slides(const std::string& method) {
@@ -137,13 +181,19 @@ class Map final : public Command {
         };
         add(homotopy_.inputs());
         add(onto_.inputs());
+        add(start_map_.inputs());
         add(metric_.inputs());
         inputs.push_back({"SOURCE", source_});
         std::vector<NamedFile> outputs = onto_.outputs();
         outputs.insert(outputs.begin(), {"-o", output_.path()});
         common_.check_files(inputs, std::move(outputs));
+        iteration_.check({method_, onto_.given() && !onto_.prescribes()});
+        if (start_map_.given() && homotopy_.given())
+            throw Error(Cause::bad_option,
+                        "--start-map has a homotopy class of its own: --turns and --waypoints ask for one",
+                        "leave one of them out");
         if (onto_.given()) {
-            check_onto();
+            onto_.prescribes() ? check_prescribed_onto() : check_onto();
             return;
         }
         if (const std::string stray = onto_.stray(); !stray.empty())
@@ -157,6 +207,9 @@ class Map final : public Command {
                         "leave one of them out");
         if (method_ == "extremal") return;
         if (certify_) throw Error(Cause::bad_option, "--certify belongs to --method extremal");
+        if (start_map_.given())
+            throw Error(Cause::bad_option, "--start-map belongs to --method extremal",
+                        "the other methods have starts of their own");
         if (homotopy_.given())
             throw Error(Cause::bad_option, "--turns and --waypoints belong to --method extremal",
                         "the other methods take the homotopy class as it comes");
@@ -180,6 +233,7 @@ class Map final : public Command {
             ExtremalOptions options;
             options.outer_loop = boundary_.outer_loop();
             homotopy_.apply(source, options);
+            options.start = start_map_.load(source.mesh, record.warnings);
             const int free = free_parts(source, boundary);
             if (free > 0) {
                 if (certify_)
@@ -194,13 +248,26 @@ class Map final : public Command {
                         " boundary vertices are free: no map attains the least K of the shape then, which is 1; this "
                         "is the map whose largest |mu| on this mesh is least, as with --minimize max");
             }
-            if (minimize_ == "max" || free > 0)
-                return run_least_maximum(source, boundary, std::move(options), start, !common_.quiet, record);
+            if (free > 0 && start_map_.given())
+                throw Error(Cause::bad_boundary,
+                            std::to_string(free) +
+                                " boundary vertices are free: the map of least maximum has starts of its own then",
+                            "prescribe the whole boundary, or leave out --start-map");
+            if (minimize_ == "max" || free > 0) {
+                LeastMaximumOptions how;
+                how.extremal = std::move(options);
+                iteration_.apply(how);
+                return run_least_maximum(source, boundary, std::move(how), start, !common_.quiet, record);
+            }
+            iteration_.require_no_power();
+            iteration_.apply(options);
             const std::optional<double> gap = certify_ ? std::optional(*certify_ / 100) : std::nullopt;
             return run_extremal(source, boundary, std::move(options), gap, start, !common_.quiet, record);
         }
         MethodRecord main;
-        MethodResult result = run_baseline(source, boundary, method_, start, main, record.warnings);
+        BaselineOptions options;
+        iteration_.apply(options);
+        MethodResult result = run_baseline(source, boundary, method_, options, start, main, record.warnings);
         record.map = std::move(main.map);
         record.solve = std::move(main.solve);
         return result;
@@ -212,7 +279,7 @@ class Map final : public Command {
         MethodRecord line;
         MethodResult other;
         try {
-            other = run_baseline(mapped, method == "lscm" ? BoundaryCondition() : boundary, method, seconds(), line,
+            other = run_baseline(mapped, method == "lscm" ? BoundaryCondition() : boundary, method, {}, seconds(), line,
                                  record.warnings);
         } catch (const Error& error) {
             record.warnings.push_back(method + " is not in the comparison: " + error.what());
@@ -231,6 +298,8 @@ class Map final : public Command {
     BoundaryOptions boundary_;
     OntoTarget onto_;
     HomotopyOptions homotopy_;
+    StartMapOption start_map_;
+    IterationOptions iteration_;
     MetricOption metric_;
     CommonOptions common_;
 };

@@ -6,6 +6,7 @@
 #include <beltrami/baselines/baseline.h>
 #include <beltrami/baselines/t_map_scheme.h>
 #include <beltrami/teichmuller/certify.h>
+#include <beltrami/teichmuller/extremal_between.h>
 #include <beltrami/teichmuller/target_model.h>
 
 #include "command.h"
@@ -44,6 +45,23 @@ void record_findings(const ExtremalMap& result, const Surface& source, Record& r
     append(record.warnings, result.warnings);
 }
 
+/// An extremal map into the record and the pages.
+MethodResult finished(ExtremalMap result, const Surface& source, double start, Record& record) {
+    record.solve = solve_record(result, seconds() - start);
+    record.map = map_record(result);
+    record_findings(result, source, record);
+    MethodResult done;
+    done.split = split_surface(result.split);
+    const Surface& used = done.split ? *done.split : source;
+    done.history = std::move(result.history);
+    done.pages.push_back({"extremal", positions_of(result.map), result.distortion.face_abs_mu});
+    done.pages.push_back(
+        {"harmonic", positions_of(result.harmonic), distortion(used.operators, result.harmonic).face_abs_mu});
+    done.map = std::move(result.map);
+    done.distortion = std::move(result.distortion);
+    return done;
+}
+
 }  // namespace
 
 const std::vector<std::string>& baseline_names() {
@@ -64,25 +82,29 @@ MethodResult run_extremal(const Surface& source, const BoundaryCondition& bounda
         record.certificate = {*gap, certified.gap, certified.reached, certified.refinements, certified.reason};
         return std::move(certified.result);
     }();
-    record.solve = solve_record(result, seconds() - start);
-    record.map = map_record(result);
-    record_findings(result, source, record);
-    MethodResult done;
-    done.split = split_surface(result.split);
-    const Surface& used = done.split ? *done.split : source;
-    done.history = std::move(result.history);
-    done.pages.push_back({"extremal", positions_of(result.map), result.distortion.face_abs_mu});
-    done.pages.push_back(
-        {"harmonic", positions_of(result.harmonic), distortion(used.operators, result.harmonic).face_abs_mu});
-    done.map = std::move(result.map);
-    done.distortion = std::move(result.distortion);
+    return finished(std::move(result), source, start, record);
+}
+
+MethodResult run_between(const Surface& source, const OntoTarget& target, ExtremalOptions options, double start,
+                         bool show, Record& record, BoundaryCondition& boundary) {
+    ExtremalMapBetween result = [&] {
+        Progress progress(show);
+        options.progress = [&](int iteration, double k) {
+            progress.show(iteration, k);
+            return true;
+        };
+        return extremal_map_between(source, *target.surface(), target.correspondence(), options);
+    }();
+    MethodResult done = finished(std::move(result.plane), source, start, record);
+    record.correspondence = correspondence_record(result, target.path(), target.correspondence().size());
+    done.positions = std::move(result.positions);
+    done.places = std::move(result.places);
+    boundary = std::move(result.target.boundary);
     return done;
 }
 
-MethodResult run_least_maximum(const Surface& source, const BoundaryCondition& boundary, ExtremalOptions options,
+MethodResult run_least_maximum(const Surface& source, const BoundaryCondition& boundary, LeastMaximumOptions how,
                                double start, bool show, Record& record) {
-    LeastMaximumOptions how;
-    how.extremal = std::move(options);
     LeastMaximumMap result = [&] {
         Progress progress(show);
         how.extremal.progress = [&](int iteration, double k) {
@@ -189,8 +211,9 @@ MethodResult run_onto(const Surface& source, const OntoTarget& target, OntoOptio
 }
 
 MethodResult run_baseline(const Surface& source, const BoundaryCondition& boundary, const std::string& method,
-                          double start, MethodRecord& record, std::vector<std::string>& warnings) {
-    BaselineMap result = baselines().at(method)(source, boundary, {});
+                          const BaselineOptions& options, double start, MethodRecord& record,
+                          std::vector<std::string>& warnings) {
+    BaselineMap result = baselines().at(method)(source, boundary, options);
     record.method = method;
     record.solve.seconds_total = seconds() - start;
     record.solve.iterations = result.iterations;

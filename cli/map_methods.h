@@ -1,5 +1,6 @@
 #pragma once
 
+#include <beltrami/baselines/baseline.h>
 #include <beltrami/report/page.h>
 #include <beltrami/report/record.h>
 
@@ -28,8 +29,13 @@ struct MethodResult {
 MethodResult run_extremal(const Surface& source, const BoundaryCondition& boundary, ExtremalOptions options,
                           std::optional<double> gap, double start, bool show, Record& record);
 
+/// The extremal map onto a surface with prescribed boundary; fills correspondence too.
+/// @param boundary becomes the values on the target's circle domain, for other methods
+MethodResult run_between(const Surface& source, const OntoTarget& target, ExtremalOptions options, double start,
+                         bool show, Record& record, BoundaryCondition& boundary);
+
 /// The map of least largest |μ|; fills least_maximum too.
-MethodResult run_least_maximum(const Surface& source, const BoundaryCondition& boundary, ExtremalOptions options,
+MethodResult run_least_maximum(const Surface& source, const BoundaryCondition& boundary, LeastMaximumOptions how,
                                double start, bool show, Record& record);
 
 /// Names of the methods that can be set beside it where the boundary slides.
@@ -42,6 +48,7 @@ MethodResult run_onto(const Surface& source, const OntoTarget& target, OntoOptio
 
 /// Another method.
 MethodResult run_baseline(const Surface& source, const BoundaryCondition& boundary, const std::string& method,
-                          double start, MethodRecord& record, std::vector<std::string>& warnings);
+                          const BaselineOptions& options, double start, MethodRecord& record,
+                          std::vector<std::string>& warnings);
 
 }  // namespace beltrami::cli

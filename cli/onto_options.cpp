@@ -17,7 +17,7 @@ namespace beltrami::cli {
 
 void OntoTarget::add_to(CLI::App& app, Kinds kinds) {
     kinds_ = kinds;
-    const bool meshes = kinds == Kinds::meshes_and_domains;
+    const bool meshes = kinds != Kinds::domains;
     const std::string source = meshes ? "SOURCE" : "SURFACE",
                       domain =
                           "a domain in JSON: {\"outer\": LOOP, \"holes\": [LOOP, ...]}, LOOP one of "
@@ -46,6 +46,12 @@ void OntoTarget::add_to(CLI::App& app, Kinds kinds) {
     app.add_option("--mark-vertices", mark_vertices_file_,
                    "the same with vertices of a mesh TARGET: a line `source_vertex target_vertex` each")
         ->type_name("FILE");
+    if (kinds == Kinds::prescribed_too)
+        app.add_option("--correspondence", correspondence_file_,
+                       "the boundary does not slide but is prescribed on that of a mesh TARGET: a line `source_vertex "
+                       "target_vertex` for one or more vertices of every boundary loop; between them it runs by arc "
+                       "length")
+            ->type_name("FILE");
     app.add_option("--places", places_,
                    "where on a mesh TARGET every vertex goes: a line `vertex face a b c wa wb wc` each, the face's "
                    "vertices a b c with their barycentric weights")
@@ -56,12 +62,16 @@ std::string OntoTarget::stray() const {
     if (!pair_specs_.empty()) return "--loops";
     if (!marks_file_.empty()) return "--marks";
     if (!mark_vertices_file_.empty()) return "--mark-vertices";
+    if (!correspondence_file_.empty()) return "--correspondence";
     if (!places_.empty()) return "--places";
     return match_ == "position" ? "" : "--match";
 }
 
 std::vector<NamedFile> OntoTarget::inputs() const {
-    return {{"--onto", path_}, {"--marks", marks_file_}, {"--mark-vertices", mark_vertices_file_}};
+    return {{"--onto", path_},
+            {"--marks", marks_file_},
+            {"--mark-vertices", mark_vertices_file_},
+            {"--correspondence", correspondence_file_}};
 }
 
 void OntoTarget::load(const Surface& source, std::vector<std::string>& warnings) {
@@ -98,14 +108,19 @@ void OntoTarget::read_marks(const Surface& source) {
         for (Eigen::Index i = 0; i < rows.indices.rows(); ++i)
             marks_.push_back({rows.indices(i, 0), Complex(rows.values(i, 0), rows.values(i, 1))});
     }
-    if (mark_vertices_file_.empty()) return;
-    if (!surface_)
-        throw Error(Cause::bad_option, "--mark-vertices is about the vertices of a mesh, TARGET is a domain",
-                    "give --marks");
-    const IndexedRows rows = read_indexed_rows(mark_vertices_file_, 2, std::numeric_limits<int>::max(), 0,
-                                               "a marked vertex with its partner");
-    for (Eigen::Index i = 0; i < rows.indices.rows(); ++i)
-        mark_vertices_.push_back({rows.indices(i, 0), rows.indices(i, 1)});
+    const auto read_pairs = [&](const std::string& option, const std::string& file, const char* instead) {
+        std::vector<std::array<int, 2>> pairs;
+        if (file.empty()) return pairs;
+        if (!surface_)
+            throw Error(Cause::bad_option, option + " is about the vertices of a mesh, TARGET is a domain", instead);
+        const IndexedRows rows =
+            read_indexed_rows(file, 2, std::numeric_limits<int>::max(), 0, "a vertex with its partner");
+        for (Eigen::Index i = 0; i < rows.indices.rows(); ++i)
+            pairs.push_back({rows.indices(i, 0), rows.indices(i, 1)});
+        return pairs;
+    };
+    mark_vertices_ = read_pairs("--mark-vertices", mark_vertices_file_, "give --marks");
+    correspondence_ = read_pairs("--correspondence", correspondence_file_, "give --boundary, --hole or --pin");
 }
 
 void OntoTarget::apply(OntoOptions& options) const {

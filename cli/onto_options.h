@@ -11,15 +11,23 @@ namespace beltrami::cli {
 /// Writes places on a mesh, a line each.
 void write_places(const std::string& path, const std::vector<MeshPoint>& places);
 
-/// --onto, --loops, --match, --marks, --mark-vertices, --places: a target onto which the boundary slides.
+/// --onto, --loops, --match, --marks, --mark-vertices, --correspondence, --places: a target onto which the boundary
+/// slides, or a mesh on whose boundary it is prescribed.
 class OntoTarget {
   public:
-    enum class Kinds { meshes_and_domains, domains };
-    /// For domains only, without --mark-vertices and --places.
+    enum class Kinds { prescribed_too, meshes_and_domains, domains };
+    /// --correspondence only where what slides may be prescribed too; --mark-vertices and --places not for domains.
     void add_to(CLI::App& app, Kinds kinds = Kinds::meshes_and_domains);
     bool given() const { return !path_.empty(); }
     /// Whether an option that belongs to --onto was given; its name.
     std::string stray() const;
+    /// Whether the boundary is prescribed on that of a mesh.
+    bool prescribes() const { return !correspondence_file_.empty(); }
+    /// Pairs of --correspondence. @pre load()
+    const std::vector<std::array<int, 2>>& correspondence() const { return correspondence_; }
+    /// Whether pairs of loops or a way to find them are asked for.
+    bool pairs_loops() const { return !pair_specs_.empty() || match_ != "position"; }
+    bool has_marks() const { return !marks_file_.empty() || !mark_vertices_file_.empty(); }
     std::vector<NamedFile> inputs() const;
     std::vector<NamedFile> outputs() const { return {{"--places", places_}}; }
     const std::string& path() const { return path_; }
@@ -41,11 +49,11 @@ class OntoTarget {
 
     Kinds kinds_ = Kinds::meshes_and_domains;
 
-    std::string path_, match_ = "position", marks_file_, mark_vertices_file_, places_;
+    std::string path_, match_ = "position", marks_file_, mark_vertices_file_, correspondence_file_, places_;
     std::vector<std::string> pair_specs_;
     std::optional<TargetDomain> domain_;
     std::optional<Surface> surface_;
-    std::vector<std::array<int, 2>> pairs_, mark_vertices_;
+    std::vector<std::array<int, 2>> pairs_, mark_vertices_, correspondence_;
     struct PlaceMark {
         int vertex;
         Complex place;

@@ -102,6 +102,10 @@ CoefficientError coefficient_error(const Surface& source, const Eigen::VectorXcd
     return error;
 }
 
+bool coefficient_fits(const CoefficientError& error) {
+    return error.misfit < std::max(kMisfit * error.residual, kRounding);
+}
+
 FlowMap beltrami_flow(const Surface& source, const Eigen::VectorXcd& mu, const SlidingStart& start,
                       const FlowOptions& options) {
     options.validate();
@@ -133,7 +137,7 @@ FlowMap beltrami_flow(const Surface& source, const Eigen::VectorXcd& mu, const S
     record_map(source, start, boundary, result);
     result.error = result.history.back().error;
     require_not_collapsed(result.loops);
-    result.fits = result.error.misfit < std::max(kMisfit * result.error.residual, kRounding);
+    result.fits = coefficient_fits(result.error);
     if (!result.fits)
         result.warnings.push_back(
             "the coefficient does not belong to a map onto this target: the relative residual is " +

@@ -24,6 +24,10 @@ struct CoefficientError {
 /// @param mu #S in the samples' frames
 CoefficientError coefficient_error(const Surface& source, const Eigen::VectorXcd& map, const Eigen::VectorXcd& mu);
 
+/// Whether a coefficient belongs to a map onto this target, or with these boundary values, as far as the mesh can tell
+/// from the error of the least-squares map: the misfit is below 0.4 of the residual, or both are rounding.
+bool coefficient_fits(const CoefficientError& error);
+
 struct FlowIteration {
     double movement;  ///< largest of a boundary vertex, as part of its curve's length
     double change;    ///< of the map, relative: root mean square over the source's vertices by that of their distance
@@ -48,9 +52,7 @@ struct FlowOptions {
 /// A map with a prescribed coefficient, and how well it has it.
 struct FlowMap : SlidMap {
     CoefficientError error;  ///< of map
-    /// Whether μ belongs to a map onto this target as far as the mesh can tell: the misfit is below 0.4 of the
-    /// residual, or both are rounding.
-    bool fits = true;
+    bool fits = true;        ///< coefficient_fits(error)
     int iterations = 0;
     std::vector<FlowIteration> history;
 };

@@ -79,6 +79,42 @@ Json to_object(const CornersRecord& corners) {
     return object;
 }
 
+Json to_rows(const std::vector<LoopOnto>& loops) {
+    Json rows = Json::array();
+    for (const LoopOnto& loop : loops)
+        rows.push_back({{"loop", loop.loop},
+                        {"curve", loop.curve},
+                        {"area_ratio", number(loop.area_ratio)},
+                        {"parameters", loop.parameters}});
+    return rows;
+}
+
+Json to_object(const UniformizationRecord& uniformization) {
+    Json circles = Json::array();
+    for (const RoundHole& hole : uniformization.holes)
+        circles.push_back({{"loop", hole.loop},
+                           {"centre", {number(hole.centre.real()), number(hole.centre.imag())}},
+                           {"radius", number(hole.radius)}});
+    Json object = {{"outer_loop", uniformization.outer_loop},
+                   {"circles", std::move(circles)},
+                   {"moduli", uniformization.moduli},
+                   {"roundness", number(uniformization.roundness)}};
+    put(object, "module", uniformization.module);
+    return object;
+}
+
+Json to_object(const FlowRecord& flow) {
+    Json object = {{"coefficient", flow.coefficient}};
+    if (flow.target) object["target"] = *flow.target;
+    object["error"] = {{"l2", number(flow.error.l2)},
+                       {"sup", number(flow.error.sup)},
+                       {"residual", number(flow.error.residual)},
+                       {"misfit", number(flow.error.misfit)}};
+    object["fits"] = flow.fits;
+    if (flow.target) object["loops"] = to_rows(flow.loops);
+    return object;
+}
+
 Json to_object(const OntoRecord& onto) {
     Json object = {{"target", onto.target},
                    {"space", to_string(onto.space)},
@@ -90,16 +126,11 @@ Json to_object(const OntoRecord& onto) {
                    {"centre", {number(onto.move.centre.real()), number(onto.move.centre.imag())}},
                    {"led", onto.led},
                    {"start_flips", onto.start_flips}};
-    Json path = Json::array(), loops = Json::array();
+    Json path = Json::array();
     for (const Waypoint& waypoint : onto.path)
         path.push_back({waypoint.step, waypoint.loop, waypoint.position.real(), waypoint.position.imag()});
-    for (const LoopOnto& loop : onto.loops)
-        loops.push_back({{"loop", loop.loop},
-                         {"curve", loop.curve},
-                         {"area_ratio", number(loop.area_ratio)},
-                         {"parameters", loop.parameters}});
     object["path"] = std::move(path);
-    object["loops"] = std::move(loops);
+    object["loops"] = to_rows(onto.loops);
     return object;
 }
 
@@ -163,6 +194,24 @@ std::string sentence_of(const HomotopyClass& homotopy) {
     text += fmt::format(" against loop {}", homotopy.outer_loop);
     if (!unclear.empty()) text += "; it cannot be told of " + unclear + ": faces there are flipped";
     return text + "\n";
+}
+
+/// The circles and the moduli.
+std::string lines_of(const UniformizationRecord& uniformization) {
+    std::string text;
+    for (const RoundHole& hole : uniformization.holes)
+        text += fmt::format("loop {}: the circle around {:.8f}, {:.8f} of radius {:.8f}\n", hole.loop,
+                            hole.centre.real() + 0.0, hole.centre.imag() + 0.0, hole.radius);
+    if (uniformization.module) {
+        text += fmt::format("conformal module log(1/r)/2pi = {:.8f}\n", *uniformization.module);
+    } else if (!uniformization.moduli.empty()) {
+        text += "moduli:";
+        for (const double value : uniformization.moduli) text += fmt::format(" {:.8f}", value);
+        text += "\n";
+    } else {
+        text += "a disk: no moduli\n";
+    }
+    return text;
 }
 
 std::string cell(const std::optional<double>& value, int digits) {
@@ -270,6 +319,15 @@ OntoRecord onto_record(const ExtremalMapOnto& result, const std::string& target)
             result.start_flips};
 }
 
+CorrespondenceRecord correspondence_record(const ExtremalMapBetween& result, const std::string& target,
+                                           std::size_t pairs) {
+    return {target, static_cast<int>(pairs), result.target.correspondence.partner};
+}
+
+UniformizationRecord uniformization_record(const Uniformization& result) {
+    return {result.chart.outer_loop(), result.holes, result.moduli, result.module, result.chart.roundness};
+}
+
 SolveRecord solve_record(const LeastMaximumMap& result, double seconds_total) {
     // Where rounding allows no better map, it has converged.
     const bool settled = result.fold_free && result.status != FoldFreeStatus::iteration_limit;
@@ -332,6 +390,16 @@ std::string to_json(const Record& record) {
                                  {"before", number(record.least_maximum->before)},
                                  {"after", number(record.least_maximum->after)}};
     if (record.onto) json["onto"] = to_object(*record.onto);
+    if (record.correspondence) {
+        Json loops = Json::array();
+        for (std::size_t l = 0; l < record.correspondence->partner.size(); ++l)
+            loops.push_back({static_cast<int>(l), record.correspondence->partner[l]});
+        json["correspondence"] = {{"target", record.correspondence->target},
+                                  {"pairs", record.correspondence->pairs},
+                                  {"loops", std::move(loops)}};
+    }
+    if (record.uniformization) json["uniformization"] = to_object(*record.uniformization);
+    if (record.flow) json["flow"] = to_object(*record.flow);
     if (record.grid) json["grid"] = to_object(*record.grid);
     if (record.distances) json["distances"] = to_object(*record.distances);
     if (!record.comparison.empty()) {
@@ -391,6 +459,12 @@ std::string to_remarks(const Record& record) {
                                 onto.K_upper);
         text += "\n";
     }
+    if (record.uniformization) text += lines_of(*record.uniformization);
+    if (record.flow)
+        text += fmt::format(
+            "coefficient: off by {:.3g} (root mean square), {:.3g} at most; relative residual {:.3g}, of it {:.3g} no "
+            "error of the mesh\n",
+            record.flow->error.l2, record.flow->error.sup, record.flow->error.residual, record.flow->error.misfit);
     if (record.least_maximum)
         text += fmt::format("largest |mu| of a face: {:.4f} before, {:.4f} after\n", record.least_maximum->before,
                             record.least_maximum->after);

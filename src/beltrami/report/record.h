@@ -4,8 +4,11 @@
 #include <string>
 #include <vector>
 
+#include <beltrami/charts/uniformization.h>
+#include <beltrami/flow/beltrami_flow.h>
 #include <beltrami/report/grid_record.h>
 #include <beltrami/teichmuller/distance.h>
+#include <beltrami/teichmuller/extremal_between.h>
 #include <beltrami/teichmuller/extremal_map.h>
 #include <beltrami/teichmuller/extremal_onto.h>
 #include <beltrami/teichmuller/least_maximum.h>
@@ -85,6 +88,31 @@ struct OntoRecord {
     int start_flips = 0;
 };
 
+/// A map onto a surface on whose boundary that of the source is prescribed.
+struct CorrespondenceRecord {
+    std::string target;  ///< its file
+    int pairs = 0;
+    std::vector<int> partner;  ///< of every boundary loop of the source, the loop of the target
+};
+
+/// A surface on its canonical domain.
+struct UniformizationRecord {
+    int outer_loop = 0;
+    std::vector<RoundHole> holes;  ///< the one around 0 first
+    std::vector<double> moduli;
+    std::optional<double> module;  ///< of a ring
+    double roundness = 0;
+};
+
+/// A map with a prescribed coefficient.
+struct FlowRecord {
+    std::string coefficient;            ///< its file
+    std::optional<std::string> target;  ///< its file, where the boundary slides
+    CoefficientError error;
+    bool fits = true;
+    std::vector<LoopOnto> loops;  ///< where the boundary slides
+};
+
 /// Distances of some shapes, and their clusters.
 struct DistancesRecord {
     std::vector<std::string> shapes;
@@ -111,6 +139,9 @@ struct Record {
     std::optional<CertificateRecord> certificate;
     std::optional<LeastMaximumRecord> least_maximum;
     std::optional<OntoRecord> onto;
+    std::optional<CorrespondenceRecord> correspondence;
+    std::optional<UniformizationRecord> uniformization;
+    std::optional<FlowRecord> flow;
     std::optional<GridRecord> grid;
     std::optional<DistancesRecord> distances;
     std::vector<MethodRecord> comparison;
@@ -129,6 +160,9 @@ SolveRecord solve_record(const ExtremalMap& result, double seconds_total);
 SolveRecord solve_record(const ExtremalMapOnto& result, double seconds_total);
 OntoRecord onto_record(const ExtremalMapOnto& result, const std::string& target);
 SolveRecord solve_record(const LeastMaximumMap& result, double seconds_total);
+CorrespondenceRecord correspondence_record(const ExtremalMapBetween& result, const std::string& target,
+                                           std::size_t pairs);
+UniformizationRecord uniformization_record(const Uniformization& result);
 CornersRecord corners_record(const ExtremalMap& result);
 /// @param source_vertices number of vertices before the split
 SplitRecord split_record(const SplitProblem& split, int source_vertices);
@@ -140,7 +174,8 @@ std::string to_json(const Record& record);
 /// @param method name of the record's own map
 std::string to_table(const Record& record, const std::string& method);
 
-/// Homotopy class, corners, folds removed and the largest |μ|, as far as they are there: lines for the terminal.
+/// Homotopy class, corners, folds removed, the largest |μ|, circles and moduli, how well a coefficient was met, as far
+/// as they are there: lines for the terminal.
 std::string to_remarks(const Record& record);
 
 /// What the lower bound on K says and how near the map comes, in plain words for the terminal; empty without a bound.

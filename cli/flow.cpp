@@ -1,0 +1,242 @@
+#include <algorithm>
+
+#include <beltrami/base/error.h>
+#include <beltrami/charts/chart_places.h>
+#include <beltrami/flow/beltrami_flow.h>
+#include <beltrami/solve/quasiconformal_map.h>
+#include <beltrami/teichmuller/target_model.h>
+
+#include "boundary_options.h"
+#include "command.h"
+#include "homotopy_options.h"
+#include "metric_option.h"
+#include "mu_option.h"
+#include "onto_options.h"
+#include "output.h"
+#include "page.h"
+#include "start_map_option.h"
+#include "words.h"
+
+namespace beltrami::cli {
+
+namespace {
+
+class Flow final : public Command {
+  public:
+    explicit Flow(CLI::App& parent) {
+        CLI::App* app = parent.add_subcommand(
+            "flow",
+            "the map with a given Beltrami coefficient: with prescribed boundary values, or onto a target along whose "
+            "curves the boundary slides (the Beltrami holomorphic flow of Ng, Gu and Lui)");
+        app->add_option("SOURCE", source_,
+                        "OBJ, PLY, OFF or STL; one component with a boundary, with --onto of genus 0")
+            ->required();
+        output_.add_to(*app);
+        coefficient_.add_to(*app, "the Beltrami coefficient of the map")->required();
+        boundary_.add_to(*app);
+        onto_.add_to(*app);
+        homotopy_.add_to(*app);
+        start_map_.add_to(*app);
+        metric_.add_to(*app);
+        app->add_option("--tolerance", options_.tolerance,
+                        "with --onto: stop when a step moves no boundary vertex by more, as part of its curve, and "
+                        "changes the map by less, as part of its size")
+            ->check(CLI::PositiveNumber)
+            ->capture_default_str()
+            ->type_name("T");
+        app->add_option("--max-iterations", options_.max_iterations, "with --onto: linear solves")
+            ->check(CLI::PositiveNumber)
+            ->capture_default_str()
+            ->type_name("N");
+        app->add_option("--step", options_.step,
+                        "with --onto: the epsilon of the flow, above 0 and at most 1: every step asks for so much of "
+                        "the coefficient and for that of the map at hand for the rest")
+            ->capture_default_str()
+            ->type_name("E");
+        common_.add_to(*app);
+        app->footer(kExitCodes);
+    }
+
+    int run() override {
+        check();
+        Record record;
+        record.command = "flow";
+        Mesh mesh = load(source_, record.warnings);
+        boundary_.load(mesh);
+        homotopy_.load();
+        metric_.load(mesh);
+        const double start = seconds();
+        const Surface source = metric_.surface_of(std::move(mesh));
+        add_findings(source.findings, record.warnings);
+        record.source = source_record(source);
+        const Eigen::VectorXcd mu = coefficient_.values(source);
+        record.flow.emplace();
+        record.flow->coefficient = coefficient_.inputs()[0].path;
+        record.solve.emplace();
+        if (onto_.given()) {
+            slide(source, mu, start, record);
+        } else {
+            prescribe(source, mu, start, record);
+        }
+        return 0;
+    }
+
+  private:
+    void check() const {
+        output_.check();
+        std::vector<NamedFile> inputs = boundary_.inputs();
+        const auto add = [&](const std::vector<NamedFile>& more) {
+            inputs.insert(inputs.end(), more.begin(), more.end());
+        };
+        add(coefficient_.inputs());
+        add(homotopy_.inputs());
+        add(onto_.inputs());
+        add(start_map_.inputs());
+        add(metric_.inputs());
+        inputs.push_back({"SOURCE", source_});
+        std::vector<NamedFile> outputs = onto_.outputs();
+        outputs.insert(outputs.begin(), {"-o", output_.path()});
+        common_.check_files(inputs, std::move(outputs));
+        options_.validate();
+        if (onto_.given()) {
+            if (boundary_.given())
+                throw Error(Cause::bad_option,
+                            "--boundary, --hole or --pin prescribes boundary values, with --onto the boundary slides",
+                            "leave one of them out");
+            if (start_map_.given() && (homotopy_.given() || onto_.pairs_loops()))
+                throw Error(Cause::bad_option,
+                            "--start-map says already which loop goes where, and how: --loops, --match and --waypoints "
+                            "do too",
+                            "leave one of them out");
+            return;
+        }
+        if (const std::string stray = onto_.stray(); !stray.empty())
+            throw Error(Cause::bad_option, stray + " belongs to --onto");
+        if (!boundary_.given())
+            throw Error(Cause::bad_option, "the coefficient alone does not say where the boundary goes",
+                        "give --boundary, --hole or --pin, or --onto TARGET");
+        if (homotopy_.given() || start_map_.given())
+            throw Error(Cause::bad_option,
+                        "with prescribed boundary values the map is one linear solve: it has no start, and the class "
+                        "that the coefficient gives it",
+                        "leave out --start-map, --turns and --waypoints");
+    }
+
+    /// A loop of which nothing is said has been forgotten.
+    static void require_loops(const Surface& source, const BoundaryCondition& boundary) {
+        std::vector<char> prescribed(static_cast<std::size_t>(source.mesh.vertex_count()), 0);
+        for (const int v : boundary.vertices) prescribed[v] = 1;
+        for (const std::vector<int>& loop : source.topology.boundary_loops)
+            if (std::none_of(loop.begin(), loop.end(), [&](int v) { return prescribed[v]; }))
+                require_whole_boundary(boundary, source);
+    }
+
+    void prescribe(const Surface& source, const Eigen::VectorXcd& mu, double start, Record& record) const {
+        const BoundaryCondition boundary = boundary_.values(source);
+        require_loops(source, boundary);
+        if (const std::size_t free = unprescribed_boundary(boundary, source).size(); free > 0)
+            record.warnings.push_back(counted(free, "boundary vertex is", "boundary vertices are") +
+                                      " free: of all maps with the others in their places this is the one whose "
+                                      "coefficient is nearest in the least-squares sense");
+        const Eigen::VectorXcd map = quasiconformal_map(source, mu, boundary);
+        record.solve->termination = to_string(Termination::converged);
+        record.solve->iterations = record.solve->factorizations = 1;
+        record.solve->seconds_total = seconds() - start;
+        record.flow->error = coefficient_error(source, map, mu);
+        if (!coefficient_fits(record.flow->error))
+            record.warnings.push_back(
+                "the boundary values are not those of a map with this coefficient: the relative residual is " +
+                std::to_string(record.flow->error.residual) + ", of which " +
+                std::to_string(record.flow->error.misfit) +
+                " are no error of the mesh; the map is the least-squares one");
+        const Distortion measured = distortion(source.operators, map);
+        if (!measured.flipped.empty())
+            record.warnings.push_back("flipped faces in the result: " + std::to_string(measured.flipped.size()) +
+                                      "; it is not one-to-one there");
+        output_.write(source.mesh, map, measured);
+        close(source, map, measured, record);
+    }
+
+    /// The start of a flow onto a domain.
+    SlidingStart start_on(const Surface& source, const TargetDomain& target, const OntoOptions& options,
+                          Record& record) const {
+        std::optional<Eigen::VectorXcd> map = start_map_.load(source.mesh, record.warnings);
+        if (!map) return flow_start(source, target, options);
+        std::vector<int> held;
+        for (const Mark& mark : options.marks) {
+            if (mark.vertex >= 0 && mark.vertex < map->size())
+                (*map)[mark.vertex] = target.curve(mark.curve).point(mark.parameter);
+            held.push_back(mark.vertex);
+        }
+        return flow_start(source, target, *map, held);
+    }
+
+    void slide(const Surface& source, const Eigen::VectorXcd& mu, double start, Record& record) {
+        onto_.load(source, record.warnings);
+        OntoOptions where;
+        where.outer_loop = boundary_.outer_loop();
+        onto_.apply(where);
+        homotopy_.apply(source, where);
+        std::optional<CircleDomainChart> circles;  // of a target that is a surface
+        if (onto_.surface()) {
+            circles = circle_domain_chart(*onto_.surface());
+            where = options_on_circles(where, *onto_.surface(), *circles);
+            where.mark_vertices.clear();
+        }
+        const TargetDomain target = circles ? circle_target(*circles) : *onto_.domain();
+        const FlowMap flow = [&] {
+            Progress progress(!common_.quiet);
+            FlowOptions options = options_;
+            options.progress = [&](int iteration, const FlowIteration& now, const Eigen::VectorXcd&) {
+                progress.show(iteration, now.error.residual, "residual");
+                return true;
+            };
+            return beltrami_flow(source, mu, start_on(source, target, where, record), options);
+        }();
+        record.solve->iterations = flow.iterations;
+        record.solve->termination = to_string(flow.termination);
+        record.solve->factorizations = flow.factorizations + (circles ? circles->factorizations : 0);
+        record.solve->seconds_total = seconds() - start;
+        record.flow->target = onto_.path();
+        record.flow->error = flow.error;
+        record.flow->loops = flow.loops;
+        record.warnings.insert(record.warnings.end(), flow.warnings.begin(), flow.warnings.end());
+        if (circles) {
+            const std::vector<Complex> images(flow.map.begin(), flow.map.end());
+            const std::vector<MeshPoint> places = locate_in_chart(*onto_.surface(), circles->chart.vertices, images);
+            output_.write(source.mesh, positions_on(onto_.surface()->mesh, places), flow.map, flow.distortion);
+            onto_.write_places(places);
+        } else {
+            output_.write(source.mesh, flow.map, flow.distortion);
+        }
+        close(source, flow.map, flow.distortion, record);
+    }
+
+    /// The page, the record and the terminal.
+    void close(const Surface& source, const Eigen::VectorXcd& map, const Distortion& measured, Record& record) const {
+        record.flow->fits = coefficient_fits(record.flow->error);
+        record.map = map_record(measured);
+        write_page(common_.report, source.mesh, {{"flow", positions_of(map), measured.face_abs_mu}}, {}, record,
+                   source_);
+        finish(record, common_, "flow", {output_.path(), onto_.places_file(), common_.json, common_.report});
+    }
+
+    std::string source_;
+    FlowOptions options_;
+    OutputOptions output_;
+    MuOption coefficient_;
+    BoundaryOptions boundary_;
+    OntoTarget onto_;
+    HomotopyOptions homotopy_;
+    StartMapOption start_map_;
+    MetricOption metric_;
+    CommonOptions common_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_flow(CLI::App& parent) {
+    return std::make_unique<Flow>(parent);
+}
+
+}  // namespace beltrami::cli

@@ -1,0 +1,46 @@
+#include "start_map_option.h"
+
+#include <beltrami/base/error.h>
+#include <beltrami/mesh/texture_map.h>
+
+#include "command.h"
+#include "words.h"
+
+namespace beltrami::cli {
+
+void StartMapOption::add_to(CLI::App& app) {
+    app.add_option(
+           "--start-map", path_,
+           "begin with the map that this mesh has as its vt, folded or not: SOURCE's vertices and faces in their "
+           "order, as OUT has them; one whose end is folded is given up, with a warning")
+        ->type_name("FILE");
+}
+
+std::optional<Eigen::VectorXcd> StartMapOption::load(const Mesh& source, std::vector<std::string>& warnings) const {
+    if (!given()) return {};
+    const Mesh start = cli::load(path_, warnings);
+    const std::string other = "--start-map " + path_ + " is another mesh than SOURCE: ",
+                      next = "give a map of the same vertices and faces, in the same order";
+    if (start.vertex_count() != source.vertex_count())
+        throw Error(Cause::bad_mesh,
+                    other + "it has " + counted(start.vertex_count(), "vertex", "vertices") + ", SOURCE " +
+                        std::to_string(source.vertex_count()),
+                    next);
+    if (start.face_count() != source.face_count())
+        throw Error(Cause::bad_mesh,
+                    other + "it has " + counted(start.face_count(), "face", "faces") + ", SOURCE " +
+                        std::to_string(source.face_count()),
+                    next);
+    for (int f = 0; f < source.face_count(); ++f) {
+        const auto a = start.faces[f], b = source.faces[f];
+        if (!std::equal(a.begin(), a.end(), b.begin(), b.end()))
+            throw Error(Cause::bad_mesh, other + "face " + std::to_string(f) + " has other vertices", next, {f});
+    }
+    try {
+        return texture_map(start);
+    } catch (const Error& error) {
+        throw Error(error.cause(), "--start-map " + path_ + ": " + error.what(), {}, error.indices());
+    }
+}
+
+}  // namespace beltrami::cli

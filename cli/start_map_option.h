@@ -1,0 +1,27 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <optional>
+
+#include <beltrami/mesh/mesh.h>
+
+#include "files.h"
+
+namespace beltrami::cli {
+
+/// --start-map: a map of SOURCE from which the iteration begins, as the vt of a mesh of the same faces.
+class StartMapOption {
+  public:
+    void add_to(CLI::App& app);
+    bool given() const { return !path_.empty(); }
+    std::vector<NamedFile> inputs() const { return {{"--start-map", path_}}; }
+    /// #V images; nothing if there is none. Warnings of the reader are added.
+    /// @throw Error unreadable, bad_mesh naming what differs from SOURCE
+    std::optional<Eigen::VectorXcd> load(const Mesh& source, std::vector<std::string>& warnings) const;
+
+  private:
+    std::string path_;
+};
+
+}  // namespace beltrami::cli

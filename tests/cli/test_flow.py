@@ -1,0 +1,246 @@
+"""beltrami flow: maps with a given Beltrami coefficient."""
+
+import json
+import math
+import pathlib
+import unittest
+
+import numpy as np
+
+from support import Command, disk, read_obj, ring, write_obj
+
+
+def coefficients(points, image, faces):
+    """∂̄f/∂f on every triangle of the plane, in the frame of the plane."""
+    z, w = points @ [1, 1j], image @ [1, 1j]
+    a, b, c = (faces[:, i] for i in range(3))
+    gradient = [1j * (z[q] - z[p]) for p, q in ((b, c), (c, a), (a, b))]  # of the hat functions, by twice the area
+    bar = sum(w[v] * g for v, g in zip((a, b, c), gradient))
+    plain = sum(w[v] * np.conj(g) for v, g in zip((a, b, c), gradient))
+    return bar / plain
+
+
+def write_rows(path, values):
+    pathlib.Path(path).write_text("# face re im\n" + "".join(f"{f} {m.real!r} {m.imag!r}\n"
+                                                              for f, m in enumerate(map(complex, values))))
+    return path
+
+
+class Prescribed(Command):
+    def setUp(self):
+        super().setUp()
+        self.points, self.faces = disk(12)
+        self.source = self.path("disk.obj")
+        write_obj(self.source, self.points, self.faces)
+        z = self.points @ [1, 1j]
+        w = z + 0.2 * np.conj(z) ** 2 + 0.1 * z**2
+        self.image = np.column_stack([w.real, w.imag])
+        self.mu = coefficients(self.points, self.image, self.faces)
+        self.assertLess(np.abs(self.mu).max(), 0.6)
+        rim = np.nonzero(np.linalg.norm(self.points, axis=1) > 1 - 1e-9)[0]
+        self.pins = self.path("pins.txt")
+        pathlib.Path(self.pins).write_text("".join(f"{v} {self.image[v][0]!r} {self.image[v][1]!r}\n" for v in rim))
+        self.out = self.path("out.obj")
+
+    def flow(self, mu, *arguments, **more):
+        return self.record("flow", self.source, "--mu", mu, "-o", self.out, *arguments, **more)
+
+    def test_a_map_is_found_by_its_coefficient(self):
+        record = self.flow(write_rows(self.path("mu.txt"), self.mu), "--pin", self.pins)
+        _, vt, _ = read_obj(self.out)
+        np.testing.assert_allclose(vt, self.image, atol=1e-11)
+        self.assertLess(record["flow"]["error"]["sup"], 1e-9)
+        self.assertTrue(record["flow"]["fits"])
+        self.assertEqual(record["solve"]["termination"], "converged")
+        self.assertEqual(record["warnings"], [])
+        self.assertAlmostEqual(record["map"]["mu"]["max"], np.abs(self.mu).max(), delta=1e-9)
+
+    def test_the_frame_of_the_first_edges(self):
+        edge = (self.points[self.faces[:, 1]] - self.points[self.faces[:, 0]]) @ [1, 1j]
+        turned = write_rows(self.path("mu.txt"), self.mu * np.exp(-2j * np.angle(edge)))
+        self.flow(turned, "--pin", self.pins, "--mu-frame", "first-edge")
+        np.testing.assert_allclose(read_obj(self.out)[1], self.image, atol=1e-11)
+        # The same surface in space has no other frame.
+        tilt = np.array([[1, 0, 0], [0, 0.6, 0.8]])
+        write_obj(self.path("tilted.obj"), self.points @ tilt, self.faces)
+        self.source = self.path("tilted.obj")
+        for frame in ("samples", "first-edge"):
+            self.flow(turned, "--pin", self.pins, "--mu-frame", frame)
+            np.testing.assert_allclose(read_obj(self.out)[1], self.image, atol=1e-11)
+        text = self.run_command("flow", self.source, "--mu", turned, "-o", self.out, "--pin", self.pins, "--mu-frame",
+                                "plane", code=2).stderr
+        self.assertIn("plane", text)
+
+    def test_a_map_that_was_written_comes_back(self):
+        first = self.path("first.ply")
+        self.record("map", self.source, "--boundary", "disk:0.5", "-o", first)
+        pinned = self.record("flow", self.source, "--mu", first, "--boundary", "disk:0.5", "-o", self.out)
+        self.assertLess(pinned["flow"]["error"]["sup"], 1e-9)
+        self.run_command("flow", self.source, "--mu", first, "--boundary", "disk:0.5", "-o", self.path("second.ply"))
+        again = self.record("flow", self.source, "--mu", self.path("second.ply"), "--boundary", "disk:0.5", "-o", self.out)
+        self.assertAlmostEqual(again["map"]["mu"]["max"], pinned["map"]["mu"]["max"], delta=1e-9)
+
+    def test_other_boundary_values_are_said_not_to_fit(self):
+        record = self.flow(write_rows(self.path("mu.txt"), self.mu), "--boundary", "disk:0.5")
+        self.assertFalse(record["flow"]["fits"])
+        self.assertIn("not those of a map with this coefficient", record["warnings"][0])
+        self.assertGreater(record["flow"]["error"]["l2"], 0.1)
+
+    def test_free_parts_are_warned_of(self):
+        lines = pathlib.Path(self.pins).read_text().splitlines()
+        pathlib.Path(self.pins).write_text("\n".join(lines[::7]) + "\n")
+        record = self.flow(write_rows(self.path("mu.txt"), self.mu), "--pin", self.pins)
+        np.testing.assert_allclose(read_obj(self.out)[1], self.image, atol=1e-9)
+        self.assertIn("boundary vertices are free", record["warnings"][0])
+
+    def test_mistakes(self):
+        good = write_rows(self.path("mu.txt"), self.mu)
+
+        def refused(code, *arguments, says):
+            text = self.run_command("flow", self.source, "-o", self.out, *arguments, code=code).stderr
+            self.assertIn(says, text)
+
+        short = write_rows(self.path("short.txt"), self.mu[:-2])
+        refused(3, "--mu", short, "--pin", self.pins, says=f"no coefficient of face {len(self.mu) - 2}")
+        more = write_rows(self.path("more.txt"), list(self.mu) + [0])
+        refused(3, "--mu", more, "--pin", self.pins, says=f"{len(self.mu)} of a coefficient of a face is not an")
+        twice = self.path("twice.txt")
+        pathlib.Path(twice).write_text(pathlib.Path(good).read_text() + "3 0 0\n")
+        refused(3, "--mu", twice, "--pin", self.pins, says="names face 3 twice")
+        large = self.mu.copy()
+        large[5] = 1
+        refused(3, "--mu", write_rows(self.path("large.txt"), large), "--pin", self.pins, says="face 5 has |μ| = 1")
+        refused(2, "--mu", good, "--pin", self.pins, "--mu-frame", "second-edge", says="--mu-frame")
+        refused(2, "--mu", good, says="does not say where the boundary goes")
+        refused(2, "--pin", self.pins, says="--mu")
+        refused(2, "--mu", good, "--pin", self.pins, "--start-map", self.source, says="one linear solve")
+        refused(2, "--mu", good, "--pin", self.pins, "--marks", self.pins, says="--marks belongs to --onto")
+        refused(2, "--mu", good, "--pin", self.pins, "--onto", self.path("x.json"), says="the boundary slides")
+        self.assertFalse(pathlib.Path(self.out).exists())
+
+    def test_terminal_and_page(self):
+        text = self.run_command("flow", self.source, "--mu", write_rows(self.path("mu.txt"), self.mu), "-o", self.out,
+                                "--pin", self.pins, "--report", self.path("page.html")).stdout
+        self.assertIn("coefficient: off by", text)
+        self.assertIn("</html>", pathlib.Path(self.path("page.html")).read_text())
+
+
+class Sliding(Command):
+    """The radial stretch z|z|^(a-1) of a ring, whose coefficient is (a-1)/(a+1) z/z̄."""
+
+    def setUp(self):
+        super().setUp()
+        self.points, self.faces = ring(72, 20, 0.5)
+        self.source, self.out = self.path("ring.obj"), self.path("out.obj")
+        write_obj(self.source, self.points, self.faces)
+        self.a = math.log(0.3) / math.log(0.5)
+        middle = self.points[self.faces].mean(axis=1) @ [1, 1j]
+        self.mu = write_rows(self.path("mu.txt"), (self.a - 1) / (self.a + 1) * middle / np.conj(middle))
+        self.exact = self.points * (np.linalg.norm(self.points, axis=1) ** (self.a - 1))[:, None]
+        self.target = self.domain(0.3)
+
+    def domain(self, inner):
+        path = self.path(f"target_{inner}.json")
+        pathlib.Path(path).write_text(json.dumps({"outer": {"circle": [0, 0, 1]},
+                                                  "holes": [{"circle": [0, 0, inner]}]}))
+        return path
+
+    def error(self):
+        """Largest distance from the exact map, up to the turn that is free."""
+        z, w = self.exact @ [1, 1j], read_obj(self.out)[1] @ [1, 1j]
+        turn = np.vdot(w, z)
+        return np.abs(w * turn / abs(turn) - z).max()
+
+    def test_onto_a_ring(self):
+        record = self.record("flow", self.source, "--mu", self.mu, "--onto", self.target, "-o", self.out)
+        self.assertLess(self.error(), 1e-3)
+        self.assertTrue(record["flow"]["fits"])
+        self.assertEqual(record["solve"]["termination"], "converged")
+        self.assertEqual(record["map"]["flipped"], 0)
+        self.assertEqual([l["curve"] for l in record["flow"]["loops"]], [0, 1])
+        self.assertEqual(record["flow"]["target"], self.target)
+
+    def test_a_ring_of_another_module_does_not_fit(self):
+        record = self.record("flow", self.source, "--mu", self.mu, "--onto", self.domain(0.5), "-o", self.out)
+        self.assertFalse(record["flow"]["fits"])
+        self.assertIn("does not belong to a map onto this target", record["warnings"][0])
+
+    def test_the_start_does_not_matter_but_for_steps(self):
+        arguments = ("flow", self.source, "--mu", self.mu, "--onto", self.target, "-o", self.out)
+        self.record(*arguments)
+        first = read_obj(self.out)[1]
+        # From a folded start it takes its steps, from its own end one.
+        rng = np.random.default_rng(1)
+        inside = np.arange(72, len(first) - 72)  # the rims are the first and the last layer
+        angle = np.arctan2(first[:, 1], first[:, 0])
+        slid = first @ [1, 1j] * np.exp(0.3j * np.sin(angle))
+        start = np.column_stack([slid.real, slid.imag])
+        start[inside] += 0.03 * rng.standard_normal((len(inside), 2))
+        write_obj(self.path("start.obj"), self.points, self.faces, start)
+        self.assertGreater(self.record("measure", self.path("start.obj"))["map"]["flipped"], 10)
+        folded = self.record(*arguments, "--start-map", self.path("start.obj"))
+        self.assertEqual(folded["map"]["flipped"], 0)
+        self.assertGreater(folded["solve"]["iterations"], 2)
+        self.assertLess(self.error(), 1e-3)
+        end = read_obj(self.out)[1]
+        write_obj(self.path("start.obj"), self.points, self.faces, end)
+        again = self.record(*arguments, "--start-map", self.path("start.obj"))
+        self.assertEqual(again["solve"]["iterations"], 1)
+        np.testing.assert_allclose(read_obj(self.out)[1], end, atol=1e-9)
+
+    def test_onto_a_mesh(self):
+        points, faces = ring(120, 36, 0.3)
+        n = (points**2).sum(axis=1)
+        sphere = np.column_stack([2 * points / (1 + n)[:, None], (n - 1) / (1 + n)])
+        write_obj(self.path("sphere.obj"), sphere, faces)
+        record = self.record("flow", self.source, "--mu", self.mu, "--onto", self.path("sphere.obj"), "-o", self.out,
+                             "--places", self.path("places.txt"))
+        self.assertTrue(record["flow"]["fits"])
+        v, _, _ = read_obj(self.out)
+        self.assertLess(np.abs(np.linalg.norm(v, axis=1) - 1).max(), 0.01)
+        self.assertEqual(len(np.loadtxt(self.path("places.txt"))), len(self.points))
+
+    def test_marks_stay_in_their_places(self):
+        marked = int(np.argmax(self.points @ [0.6, 0.8]))
+        place = np.array([math.cos(0.9), math.sin(0.9)])
+        pathlib.Path(self.path("marks.txt")).write_text(f"{marked} {place[0]!r} {place[1]!r}\n")
+        arguments = ("flow", self.source, "--mu", self.mu, "--onto", self.target, "-o", self.out, "--marks",
+                     self.path("marks.txt"))
+        self.record(*arguments)
+        first = read_obj(self.out)[1]
+        np.testing.assert_allclose(first[marked], place, atol=1e-9)
+        write_obj(self.path("start.obj"), self.points, self.faces, self.exact)
+        self.record(*arguments, "--start-map", self.path("start.obj"))
+        np.testing.assert_allclose(read_obj(self.out)[1], first, atol=1e-8)
+
+    def test_mistakes(self):
+        base = ("flow", self.source, "--mu", self.mu, "--onto", self.target, "-o", self.out)
+
+        def refused(code, *arguments, says):
+            self.assertIn(says, self.run_command(*base, *arguments, code=code).stderr)
+
+        refused(2, "--step", "0", says="step of the flow")
+        refused(2, "--step", "1.5", says="step of the flow")
+        refused(2, "--tolerance", "-1", says="--tolerance")
+        refused(2, "--max-iterations", "0", says="--max-iterations")
+        refused(4, "--start-map", self.source, says="no texture coordinates")
+        jumbled = self.exact.copy()
+        jumbled[[3, 7]] = jumbled[[7, 3]]
+        write_obj(self.path("jumbled.obj"), self.points, self.faces, jumbled)
+        refused(5, "--start-map", self.path("jumbled.obj"), says="keeps the order of the boundary vertices")
+        points, faces = ring(24, 4, 0.5)
+        write_obj(self.path("other.obj"), points, faces, points)
+        refused(4, "--start-map", self.path("other.obj"), says="another mesh than SOURCE: it has 120 vertices")
+        turned = np.roll(self.faces, 1, axis=1)
+        write_obj(self.path("turned.obj"), self.points, turned, self.exact)
+        refused(4, "--start-map", self.path("turned.obj"), says="face 0 has other vertices")
+        refused(2, "--start-map", self.path("turned.obj"), "--loops", "0:0", says="leave one of them out")
+        self.assertFalse(pathlib.Path(self.out).exists())
+        limited = self.record(*base, "--max-iterations", "1")
+        self.assertEqual(limited["solve"]["termination"], "iteration_limit")
+        self.assertEqual(limited["solve"]["iterations"], 1)
+        self.assertIn("before the map settled", limited["warnings"][0])
+
+
+if __name__ == "__main__":
+    unittest.main()
