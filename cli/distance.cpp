@@ -49,13 +49,13 @@ class DistanceCommand final : public Command {
             add_findings(surfaces.back().findings, record.warnings);
         }
         record.source = source_record(surfaces[0]);
-        OntoOptions options;
-        options.outer_loop = outer_;
-        options.match_by = match_ == "size" ? MatchBy::size : MatchBy::position;
+        Correspondence wanted;
+        wanted.outer_loop = outer_;
+        wanted.match_by = match_ == "size" ? MatchBy::size : MatchBy::position;
         DistanceMatrix matrix;
         {
             Progress progress(!common_.quiet);
-            matrix = distance_matrix(surfaces, options, [&](int done, int all) {
+            matrix = distance_matrix(surfaces, wanted, {}, [&](int done, int all) {
                 progress.show(done, static_cast<double>(all), "of");
                 return true;
             });

@@ -4,7 +4,7 @@
 #include <beltrami/charts/chart_places.h>
 #include <beltrami/flow/beltrami_flow.h>
 #include <beltrami/solve/quasiconformal_map.h>
-#include <beltrami/teichmuller/target_model.h>
+#include <beltrami/starts/target_model.h>
 
 #include "boundary_options.h"
 #include "command.h"
@@ -158,14 +158,14 @@ class Flow final : public Command {
     }
 
     /// The start of a flow onto a domain.
-    SlidingStart start_on(const Surface& source, const TargetDomain& target, const OntoOptions& options,
+    SlidingStart start_on(const Surface& source, const TargetDomain& target, const Correspondence& wanted,
                           Record& record) const {
         std::optional<Eigen::VectorXcd> map = start_map_.load(source.mesh, record.warnings);
-        if (!map) return flow_start(source, target, options);
+        if (!map) return flow_start(source, target, wanted);
         std::vector<int> held;
-        for (const Mark& mark : options.marks) {
+        for (const Mark& mark : wanted.marks) {
             if (mark.vertex >= 0 && mark.vertex < map->size())
-                (*map)[mark.vertex] = target.curve(mark.curve).point(mark.parameter);
+                (*map)[mark.vertex] = target.curve(on_curve(mark).curve).point(on_curve(mark).parameter);
             held.push_back(mark.vertex);
         }
         return flow_start(source, target, *map, held);
@@ -173,15 +173,15 @@ class Flow final : public Command {
 
     void slide(const Surface& source, const Eigen::VectorXcd& mu, double start, Record& record) {
         onto_.load(source, record.warnings);
-        OntoOptions where;
+        Correspondence where;
         where.outer_loop = boundary_.outer_loop();
         onto_.apply(where);
+        homotopy_.refuse_turns();
         homotopy_.apply(source, where);
         std::optional<CircleDomainChart> circles;  // of a target that is a surface
         if (onto_.surface()) {
             circles = circle_domain_chart(*onto_.surface());
-            where = options_on_circles(where, *onto_.surface(), *circles);
-            where.mark_vertices.clear();
+            where = correspondence_on_circles(where, *onto_.surface(), *circles);
         }
         const TargetDomain target = circles ? circle_target(*circles) : *onto_.domain();
         const FlowMap flow = [&] {

@@ -7,7 +7,7 @@
 #include <beltrami/constraints/prescribed_split.h>
 #include <beltrami/io/write_mesh.h>
 #include <beltrami/plane/disk_moebius.h>
-#include <beltrami/teichmuller/target_model.h>
+#include <beltrami/starts/target_model.h>
 
 #include "command.h"
 #include "map_methods.h"
@@ -129,12 +129,11 @@ class Grid final : public Command {
     MethodResult run_extremal_onto(const Surface& source, double start, TargetDomain& domain, Record& record) {
         target_.load(source, record.warnings);
         domain = *target_.domain();
-        OntoOptions options;
-        options.outer_loop = outer_;
-        target_.apply(options);
-        const std::vector<Mark> marks = options.marks;
-        MethodResult done = run_onto(source, target_, std::move(options), start, !common_.quiet, record);
-        reach_corners(done.split ? *done.split : source, domain, record.onto->loops, marks, done.map);
+        Correspondence wanted;
+        wanted.outer_loop = outer_;
+        target_.apply(wanted);
+        MethodResult done = run_onto(source, target_, wanted, {}, start, !common_.quiet, record);
+        reach_corners(done.split ? *done.split : source, domain, record.onto->loops, wanted.marks, done.map);
         return done;
     }
 

@@ -58,17 +58,17 @@ void HomotopyOptions::require_hole(const Surface& source, int loop, int outer_lo
                     "`beltrami info` prints the loops' numbers");
 }
 
-void HomotopyOptions::apply(const Surface& source, ExtremalOptions& options) const {
+void HomotopyOptions::apply(const Surface& source, Correspondence& wanted) const {
     if (!turns_of_loops_.empty()) {
-        options.turns.assign(source.topology.boundary_loops.size(), 0);
+        wanted.turns.assign(source.topology.boundary_loops.size(), 0);
         for (const auto& [loop, turns] : turns_of_loops_) {
-            require_hole(source, loop, options.outer_loop, "--turns");
-            options.turns[loop] = turns;
+            require_hole(source, loop, wanted.outer_loop, "--turns");
+            wanted.turns[loop] = turns;
         }
     }
     if (waypoint_file_.empty()) return;
-    require_holes_of_waypoints(source, options.outer_loop);
-    options.waypoints = waypoints_;
+    require_holes_of_waypoints(source, wanted.outer_loop);
+    wanted.waypoints = waypoints_;
 }
 
 void HomotopyOptions::require_holes_of_waypoints(const Surface& source, int outer_loop) const {
@@ -76,13 +76,10 @@ void HomotopyOptions::require_holes_of_waypoints(const Surface& source, int oute
     if (source.topology.boundary_loops.size() < 2) require_hole(source, 1, outer_loop, "--waypoints");
 }
 
-void HomotopyOptions::apply(const Surface& source, OntoOptions& options) const {
+void HomotopyOptions::refuse_turns() const {
     if (!turns_of_loops_.empty())
         throw Error(Cause::bad_option, "--turns says nothing where the boundary slides",
                     "turned loops slide back; give --waypoints to braid holes");
-    if (waypoint_file_.empty()) return;
-    require_holes_of_waypoints(source, options.outer_loop);
-    options.waypoints = waypoints_;
 }
 
 }  // namespace beltrami::cli

@@ -2,8 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include <beltrami/teichmuller/extremal_map.h>
-#include <beltrami/teichmuller/extremal_onto.h>
+#include <beltrami/targets/correspondence.h>
 
 #include "files.h"
 
@@ -19,9 +18,9 @@ class HomotopyOptions {
     /// Reads the options and their files. @throw Error bad_option, unreadable
     void load();
     /// Hands the class to the solver. @pre load() @throw Error bad_option naming a loop that cannot turn
-    void apply(const Surface& source, ExtremalOptions& options) const;
-    /// For boundaries that slide, where turns mean nothing.
-    void apply(const Surface& source, OntoOptions& options) const;
+    void apply(const Surface& source, Correspondence& wanted) const;
+    /// @throw Error bad_option where turns are given: boundaries that slide take none
+    void refuse_turns() const;
 
   private:
     /// @throw Error bad_option naming a waypoint of no hole

@@ -70,11 +70,6 @@ void IterationOptions::apply(ExtremalOptions& options) const {
                                                  : Evening::where_needed;
 }
 
-void IterationOptions::apply(OntoOptions& options) const {
-    set(options.tolerance, tolerance_);
-    set(options.max_iterations, max_iterations_);
-}
-
 void IterationOptions::apply(LeastMaximumOptions& options) const {
     set(options.power, power_);
     set(options.tolerance, tolerance_);

@@ -6,7 +6,7 @@
 #include <string>
 
 #include <beltrami/baselines/baseline.h>
-#include <beltrami/teichmuller/extremal_onto.h>
+#include <beltrami/teichmuller/extremal_map.h>
 #include <beltrami/teichmuller/least_maximum.h>
 
 namespace beltrami::cli {
@@ -27,7 +27,6 @@ class IterationOptions {
     void require_no_power() const;
 
     void apply(ExtremalOptions& options) const;
-    void apply(OntoOptions& options) const;
     /// The extremal map's own tolerance is left alone: it is where the map of least maximum begins.
     void apply(LeastMaximumOptions& options) const;
     void apply(BaselineOptions& options) const;

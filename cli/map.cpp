@@ -99,13 +99,15 @@ class Map final : public Command {
     /// Onto a mesh on whose boundary that of the source is prescribed.
     int run_onto_surface(const Surface& source, double start, Record& record) {
         onto_.load(source, record.warnings);
+        Correspondence wanted;
+        wanted.outer_loop = boundary_.outer_loop();
+        homotopy_.apply(source, wanted);
         ExtremalOptions options;
-        options.outer_loop = boundary_.outer_loop();
-        homotopy_.apply(source, options);
         iteration_.apply(options);
         options.start = start_map_.load(source.mesh, record.warnings);
         BoundaryCondition boundary;
-        MethodResult result = run_between(source, onto_, std::move(options), start, !common_.quiet, record, boundary);
+        MethodResult result =
+            run_between(source, onto_, wanted, std::move(options), start, !common_.quiet, record, boundary);
         for (const std::string& other : compare_)
             compare(result.split ? *result.split : source, boundary, other, result.pages, record);
         return write_onto(source, std::move(result), record);
@@ -113,12 +115,15 @@ class Map final : public Command {
 
     int run_onto_target(const Surface& source, double start, Record& record) {
         onto_.load(source, record.warnings);
-        OntoOptions options;
-        options.outer_loop = boundary_.outer_loop();
-        onto_.apply(options);
-        homotopy_.apply(source, options);
+        Correspondence wanted;
+        wanted.outer_loop = boundary_.outer_loop();
+        onto_.apply(wanted);
+        homotopy_.refuse_turns();
+        homotopy_.apply(source, wanted);
+        ExtremalOptions options;
         iteration_.apply(options);
-        MethodResult result = run_onto(source, onto_, std::move(options), start, !common_.quiet, record, compare_);
+        MethodResult result =
+            run_onto(source, onto_, wanted, std::move(options), start, !common_.quiet, record, compare_);
         return write_onto(source, std::move(result), record);
     }
 
@@ -230,9 +235,10 @@ class Map final : public Command {
 
     MethodResult solve(const Surface& source, const BoundaryCondition& boundary, double start, Record& record) const {
         if (method_ == "extremal") {
+            Constraints constraints(boundary);
+            constraints.correspondence.outer_loop = boundary_.outer_loop();
+            homotopy_.apply(source, constraints.correspondence);
             ExtremalOptions options;
-            options.outer_loop = boundary_.outer_loop();
-            homotopy_.apply(source, options);
             options.start = start_map_.load(source.mesh, record.warnings);
             const int free = free_parts(source, boundary);
             if (free > 0) {
@@ -257,12 +263,12 @@ class Map final : public Command {
                 LeastMaximumOptions how;
                 how.extremal = std::move(options);
                 iteration_.apply(how);
-                return run_least_maximum(source, boundary, std::move(how), start, !common_.quiet, record);
+                return run_least_maximum(source, constraints, std::move(how), start, !common_.quiet, record);
             }
             iteration_.require_no_power();
             iteration_.apply(options);
             const std::optional<double> gap = certify_ ? std::optional(*certify_ / 100) : std::nullopt;
-            return run_extremal(source, boundary, std::move(options), gap, start, !common_.quiet, record);
+            return run_extremal(source, constraints, std::move(options), gap, start, !common_.quiet, record);
         }
         MethodRecord main;
         BaselineOptions options;

@@ -5,9 +5,9 @@
 #include <beltrami/base/error.h>
 #include <beltrami/baselines/baseline.h>
 #include <beltrami/baselines/t_map_scheme.h>
+#include <beltrami/starts/target_model.h>
 #include <beltrami/teichmuller/certify.h>
 #include <beltrami/teichmuller/extremal_between.h>
-#include <beltrami/teichmuller/target_model.h>
 
 #include "command.h"
 #include "page.h"
@@ -69,7 +69,7 @@ const std::vector<std::string>& baseline_names() {
     return names;
 }
 
-MethodResult run_extremal(const Surface& source, const BoundaryCondition& boundary, ExtremalOptions options,
+MethodResult run_extremal(const Surface& source, const Constraints& constraints, ExtremalOptions options,
                           std::optional<double> gap, double start, bool show, Record& record) {
     ExtremalMap result = [&] {
         Progress progress(show);  // gone before anything else is printed
@@ -77,23 +77,24 @@ MethodResult run_extremal(const Surface& source, const BoundaryCondition& bounda
             progress.show(iteration, k);
             return true;
         };
-        if (!gap) return extremal_map(source, boundary, options);
-        Certification certified = certify(source, boundary, *gap, options);
+        if (!gap) return extremal_map(source, constraints, options);
+        Certification certified = certify(source, constraints, *gap, options);
         record.certificate = {*gap, certified.gap, certified.reached, certified.refinements, certified.reason};
         return std::move(certified.result);
     }();
     return finished(std::move(result), source, start, record);
 }
 
-MethodResult run_between(const Surface& source, const OntoTarget& target, ExtremalOptions options, double start,
-                         bool show, Record& record, BoundaryCondition& boundary) {
+MethodResult run_between(const Surface& source, const OntoTarget& target, const Correspondence& wanted,
+                         ExtremalOptions options, double start, bool show, Record& record,
+                         BoundaryCondition& boundary) {
     ExtremalMapBetween result = [&] {
         Progress progress(show);
         options.progress = [&](int iteration, double k) {
             progress.show(iteration, k);
             return true;
         };
-        return extremal_map_between(source, *target.surface(), target.correspondence(), options);
+        return extremal_map_between(source, *target.surface(), target.correspondence(), wanted, options);
     }();
     MethodResult done = finished(std::move(result.plane), source, start, record);
     record.correspondence = correspondence_record(result, target.path(), target.correspondence().size());
@@ -103,7 +104,7 @@ MethodResult run_between(const Surface& source, const OntoTarget& target, Extrem
     return done;
 }
 
-MethodResult run_least_maximum(const Surface& source, const BoundaryCondition& boundary, LeastMaximumOptions how,
+MethodResult run_least_maximum(const Surface& source, const Constraints& constraints, LeastMaximumOptions how,
                                double start, bool show, Record& record) {
     LeastMaximumMap result = [&] {
         Progress progress(show);
@@ -115,7 +116,7 @@ MethodResult run_least_maximum(const Surface& source, const BoundaryCondition& b
             progress.show(iteration, energy, "energy");
             return true;
         };
-        return least_maximum_map(source, boundary, how);
+        return least_maximum_map(source, constraints, how);
     }();
     record.solve = solve_record(result, seconds() - start);
     record.map = map_record(result);
@@ -147,13 +148,13 @@ const std::vector<std::string>& sliding_baseline_names() {
 namespace {
 
 /// Ng, Gu & Lui's scheme, from the start and with the pairs of the extremal map.
-void run_t_map(const Surface& source, const TargetDomain& target, const OntoOptions& options,
+void run_t_map(const Surface& source, const TargetDomain& target, const Correspondence& wanted,
                std::vector<PageMap>& pages, Record& record) {
     const double start = seconds();
     MethodRecord line;
     line.method = "t-map";
     try {
-        TMapSchemeResult result = t_map_scheme(source, target, {}, options);
+        TMapSchemeResult result = t_map_scheme(source, target, {}, wanted);
         line.map = map_record(result.distortion);
         line.solve.iterations = result.solves;
         line.solve.termination = to_string(result.termination);
@@ -170,23 +171,22 @@ void run_t_map(const Surface& source, const TargetDomain& target, const OntoOpti
 
 }  // namespace
 
-MethodResult run_onto(const Surface& source, const OntoTarget& target, OntoOptions options, double start, bool show,
-                      Record& record, const std::vector<std::string>& compare) {
+MethodResult run_onto(const Surface& source, const OntoTarget& target, const Correspondence& wanted,
+                      ExtremalOptions options, double start, bool show, Record& record,
+                      const std::vector<std::string>& compare) {
     MethodResult done;
-    std::optional<CircleDomainChart> circles;  // of a target that is a surface
-    ExtremalMapOnto result = [&] {
+    ExtremalMap result = [&] {
         Progress progress(show);
         options.progress = [&](int iteration, double k) {
             progress.show(iteration, k);
             return true;
         };
-        if (target.domain()) return extremal_map(source, *target.domain(), options);
-        ExtremalMapOntoSurface onto = extremal_map(source, *target.surface(), options);
-        done.positions = std::move(onto.positions);
-        done.places = std::move(onto.places);
-        circles = std::move(onto.target);
-        return std::move(onto.plane);
+        return extremal_map(source, target.constraints(wanted), options);
     }();
+    if (target.surface()) {
+        done.positions = std::move(result.positions);
+        done.places = std::move(result.places);
+    }
     record.solve = solve_record(result, seconds() - start);
     record.map = map_record(result);
     record.onto = onto_record(result, target.path());
@@ -197,9 +197,8 @@ MethodResult run_onto(const Surface& source, const OntoTarget& target, OntoOptio
     done.pages.push_back({"extremal", positions_of(result.map), result.distortion.face_abs_mu});
     done.pages.push_back({"start", positions_of(result.start), distortion(used.operators, result.start).face_abs_mu});
     if (!compare.empty()) {
-        OntoOptions own = circles ? options_on_circles(options, *target.surface(), *circles) : options;
-        own.mark_vertices.clear();
-        own.progress = {};
+        const std::optional<CircleDomainChart>& circles = result.target_circles;
+        Correspondence own = circles ? correspondence_on_circles(wanted, *target.surface(), *circles) : wanted;
         own.loops.clear();
         for (const LoopOnto& loop : result.loops) own.loops.push_back({loop.loop, loop.curve});
         run_t_map(used, circles ? circle_target(*circles) : *target.domain(), own, done.pages, record);

@@ -26,16 +26,16 @@ struct MethodResult {
 /// @param start      when the clock was started
 /// @param gap        wanted of K/K_lower − 1, by refinements; nothing: as it comes
 /// @param show       whether the terminal may show the iterations
-MethodResult run_extremal(const Surface& source, const BoundaryCondition& boundary, ExtremalOptions options,
+MethodResult run_extremal(const Surface& source, const Constraints& constraints, ExtremalOptions options,
                           std::optional<double> gap, double start, bool show, Record& record);
 
 /// The extremal map onto a surface with prescribed boundary; fills correspondence too.
 /// @param boundary becomes the values on the target's circle domain, for other methods
-MethodResult run_between(const Surface& source, const OntoTarget& target, ExtremalOptions options, double start,
-                         bool show, Record& record, BoundaryCondition& boundary);
+MethodResult run_between(const Surface& source, const OntoTarget& target, const Correspondence& wanted,
+                         ExtremalOptions options, double start, bool show, Record& record, BoundaryCondition& boundary);
 
 /// The map of least largest |μ|; fills least_maximum too.
-MethodResult run_least_maximum(const Surface& source, const BoundaryCondition& boundary, LeastMaximumOptions how,
+MethodResult run_least_maximum(const Surface& source, const Constraints& constraints, LeastMaximumOptions how,
                                double start, bool show, Record& record);
 
 /// Names of the methods that can be set beside it where the boundary slides.
@@ -43,8 +43,9 @@ const std::vector<std::string>& sliding_baseline_names();
 
 /// The extremal map onto a target; fills onto too.
 /// @param compare further methods for the record's comparison and the pages
-MethodResult run_onto(const Surface& source, const OntoTarget& target, OntoOptions options, double start, bool show,
-                      Record& record, const std::vector<std::string>& compare = {});
+MethodResult run_onto(const Surface& source, const OntoTarget& target, const Correspondence& wanted,
+                      ExtremalOptions options, double start, bool show, Record& record,
+                      const std::vector<std::string>& compare = {});
 
 /// Another method.
 MethodResult run_baseline(const Surface& source, const BoundaryCondition& boundary, const std::string& method,

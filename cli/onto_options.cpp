@@ -123,11 +123,15 @@ void OntoTarget::read_marks(const Surface& source) {
     correspondence_ = read_pairs("--correspondence", correspondence_file_, "give --boundary, --hole or --pin");
 }
 
-void OntoTarget::apply(OntoOptions& options) const {
-    options.loops = pairs_;
-    options.match_by = match_ == "size" ? MatchBy::size : MatchBy::position;
-    options.mark_vertices = mark_vertices_;
-    for (const PlaceMark& mark : marks_) options.marks.push_back(nearest_mark(*domain_, mark.vertex, mark.place));
+void OntoTarget::apply(Correspondence& wanted) const {
+    wanted.loops = pairs_;
+    wanted.match_by = match_ == "size" ? MatchBy::size : MatchBy::position;
+    for (const auto& [vertex, to] : mark_vertices_) wanted.marks.emplace_back(vertex, TargetVertex{to});
+    for (const PlaceMark& mark : marks_) wanted.marks.push_back(nearest_mark(*domain_, mark.vertex, mark.place));
+}
+
+Constraints OntoTarget::constraints(Correspondence wanted) const {
+    return domain_ ? Constraints(*domain_, std::move(wanted)) : Constraints(*surface_, std::move(wanted));
 }
 
 void OntoTarget::write_places(const std::vector<MeshPoint>& places) const {

@@ -2,7 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include <beltrami/teichmuller/extremal_onto.h>
+#include <beltrami/constraints/constraints.h>
+#include <beltrami/locate/planar_locator.h>
 
 #include "files.h"
 
@@ -39,8 +40,10 @@ class OntoTarget {
     /// One of them is there. @pre load()
     const std::optional<TargetDomain>& domain() const { return domain_; }
     const std::optional<Surface>& surface() const { return surface_; }
-    /// Pairs and marks into the options of the solver. @pre load()
-    void apply(OntoOptions& options) const;
+    /// Pairs and marks into what is wanted. @pre load()
+    void apply(Correspondence& wanted) const;
+    /// The problem of sliding onto the target. @pre load()
+    Constraints constraints(Correspondence wanted) const;
     /// Writes --places, if it is wanted.
     void write_places(const std::vector<MeshPoint>& places) const;
 

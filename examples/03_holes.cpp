@@ -31,9 +31,10 @@ int main(int argc, char** argv) {
         }
 
         for (const int turns : {0, 1}) {
-            beltrami::ExtremalOptions options;
-            options.turns = {0, turns, 0, 0};  // one number a loop; that of the outer loop does not count
-            const beltrami::ExtremalMap result = beltrami::extremal_map(surface, boundary, options);
+            beltrami::Constraints constraints(boundary);
+            constraints.correspondence.turns = {0, turns, 0,
+                                                0};  // one number a loop; that of the outer loop does not count
+            const beltrami::ExtremalMap result = beltrami::extremal_map(surface, constraints);
             std::printf("hole 1 turned by %d: K = %.3f, no map of this class has less than %.3f; %zu faces flipped\n",
                         result.homotopy.holes[0].turns, result.K, result.K_lower, result.distortion.flipped.size());
             beltrami::Positions vt(result.map.size(), 2);

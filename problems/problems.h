@@ -32,7 +32,7 @@ struct Problem {
     std::optional<double> exact_k;            ///< of the continuous problem
     std::optional<Eigen::VectorXcd> exact;    ///< #V the extremal map of the continuous problem
     std::optional<Eigen::VectorXcd> witness;  ///< #V a piecewise linear map without flips that obeys the boundary
-    /// Homotopy class as ExtremalOptions::turns: per boundary loop the counter-clockwise turns of its image against the
+    /// Homotopy class as Correspondence::turns: per boundary loop the counter-clockwise turns of its image against the
     /// outer one's, 0 for the outer loop; empty: the class of the harmonic map. @ref witness, where given, lies in it.
     std::vector<int> turns = {};
     std::vector<FeatureCurve> features = {};  ///< inner curves to align (and the sides of the boundary, for sliding)

@@ -12,9 +12,9 @@ std::vector<Solved> Comparison::run(const std::vector<std::string>& methods) {
     for (const bench::FeatureCurve& curve : problem.features) edges.push_back(curve.vertices);
     std::vector<Solved> result;
     for (const std::string& method : methods) {
-        ExtremalOptions options;
-        options.turns = problem.turns;
-        result.push_back(solve(surface, boundary, method, options));
+        Constraints constraints(boundary);
+        constraints.correspondence.turns = problem.turns;
+        result.push_back(solve(surface, constraints, method));
         const Solved& solved = result.back();
         table.rows.push_back(usual_row(method, solved));
         if (!solved) continue;

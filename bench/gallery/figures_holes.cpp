@@ -23,9 +23,9 @@ Figure figure_02(Output& output) {
     for (const int turns : {0, 1, -1, 2}) {
         const Problem problem = annulus_turns(0.05, turns);
         const Surface surface(problem.mesh);
-        ExtremalOptions options;
-        options.turns = problem.turns;
-        const Solved solved = solve(surface, problem.boundary, "extremal", options);
+        Constraints constraints(problem.boundary);
+        constraints.correspondence.turns = problem.turns;
+        const Solved solved = solve(surface, constraints, "extremal");
         const std::string name = std::to_string(turns);
         const double k = *problem.exact_k;
         if (!solved) {

@@ -57,7 +57,7 @@ struct Solved {
 /// iteration leaves it); an Error becomes a refusal, so that a figure
 /// shows what is possible today.
 /// @param options of extremal and least maximum; without a wish for `sharpen` bounds are those of quadratic maps
-Solved solve(const Surface& surface, const BoundaryCondition& boundary, const std::string& method,
+Solved solve(const Surface& surface, const Constraints& constraints, const std::string& method,
              ExtremalOptions options = {});
 /// Seconds of a harmonic map of this problem, the best of three.
 double harmonic_seconds(const Surface& surface, const BoundaryCondition& boundary);

@@ -46,17 +46,17 @@ TargetCurve polar_spline(Complex centre, const std::function<double(double)>& ra
     return TargetCurve::spline(places);
 }
 
-OntoOptions numbered(std::size_t holes) {
-    OntoOptions options;
-    for (int l = 0; l <= static_cast<int>(holes); ++l) options.loops.push_back({l, l});
-    return options;
+Correspondence numbered(std::size_t holes) {
+    Correspondence wanted;
+    for (int l = 0; l <= static_cast<int>(holes); ++l) wanted.loops.push_back({l, l});
+    return wanted;
 }
 
-SolvedOnto solve_onto(const Surface& source, const TargetDomain& target, const OntoOptions& options) {
-    return solve_onto([&] { return extremal_map(source, target, options); });
+SolvedOnto solve_onto(const Surface& source, const Constraints& onto, const ExtremalOptions& options) {
+    return solve_onto([&] { return extremal_map(source, onto, options); });
 }
 
-SolvedOnto solve_onto(const std::function<ExtremalMapOnto()>& solver) {
+SolvedOnto solve_onto(const std::function<ExtremalMap()>& solver) {
     SolvedOnto result;
     const auto start = std::chrono::steady_clock::now();
     try {
@@ -84,7 +84,7 @@ std::vector<std::string> onto_head(const std::string& first) {
 std::vector<std::string> onto_row(const std::string& first, const Surface& source, const std::string& known,
                                   const SolvedOnto& solved) {
     if (!solved) return {first, std::to_string(source.mesh.face_count()), known, "refused: " + solved.refusal};
-    const ExtremalMapOnto& found = *solved.all;
+    const ExtremalMap& found = *solved.all;
     const Distortion& d = found.distortion;
     return {first,
             std::to_string(solved.mesh(source).face_count()),
@@ -100,7 +100,7 @@ std::vector<std::string> onto_row(const std::string& first, const Surface& sourc
             number(solved.seconds, 2)};
 }
 
-std::vector<Curve> correspondences(const Surface& source, const TargetDomain& target, const ExtremalMapOnto& map) {
+std::vector<Curve> correspondences(const Surface& source, const TargetDomain& target, const ExtremalMap& map) {
     std::vector<Curve> result;
     for (const LoopOnto& onto : map.loops) {
         const std::vector<double>&lengths = source.boundary_edge_lengths[onto.loop], &parameters = onto.parameters;
@@ -123,8 +123,8 @@ std::vector<Curve> correspondences(const Surface& source, const TargetDomain& ta
 }
 
 SolvedOnto OntoExample::run(Output& output, Figure& figure, Table& table, const Surface& source,
-                            const TargetDomain& target, const OntoOptions& options) const {
-    SolvedOnto solved = solve_onto(source, target, options);
+                            const TargetDomain& target, const Correspondence& wanted) const {
+    SolvedOnto solved = solve_onto(source, {target, wanted});
     table.rows.push_back(onto_row(caption, source, known, solved));
     if (!solved) return solved;
     const double shown = std::min(1.0, 1.6 * solved.all->k);
@@ -140,7 +140,7 @@ SolvedOnto OntoExample::run(Output& output, Figure& figure, Table& table, const 
     return solved;
 }
 
-Energies energies(const std::string& label, const Surface& source, const TargetDomain& target, OntoOptions options) {
+Energies energies(const std::string& label, const Surface& source, const Constraints& onto, ExtremalOptions options) {
     Energies result{{label, {}, {}}, {label, {}, {}}};
     const auto add = [&](int iterations, const Distortion& d) {
         result.largest.x.push_back(iterations);
@@ -152,7 +152,7 @@ Energies energies(const std::string& label, const Surface& source, const TargetD
     options.coarse_start = false;
     for (int n = 1; n <= 90 && result.settled == 0; n += n < 20 ? 1 : 5) {
         options.max_iterations = n;
-        const SolvedOnto solved = solve_onto(source, target, options);
+        const SolvedOnto solved = solve_onto(source, onto, options);
         if (!solved) continue;
         if (result.p99.x.empty()) add(0, distortion(source.operators, solved.all->start));
         add(solved.all->iterations, solved.all->distortion);

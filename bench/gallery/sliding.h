@@ -17,12 +17,12 @@ TargetDomain circles_target(const std::vector<Hole>& holes);
 Mesh domain_mesh(const TargetDomain& domain, double h);
 /// A closed spline through @p points places r(t) e^{it} around a centre.
 TargetCurve polar_spline(Complex centre, const std::function<double(double)>& radius, int points = 64);
-/// Options in which loops keep their numbers.
-OntoOptions numbered(std::size_t holes);
+/// Loops keep their numbers.
+Correspondence numbered(std::size_t holes);
 
 /// A map whose boundary slides, or why there is none.
 struct SolvedOnto {
-    std::optional<ExtremalMapOnto> all;
+    std::optional<ExtremalMap> all;
     double seconds = 0;
     std::string refusal;
 
@@ -30,9 +30,9 @@ struct SolvedOnto {
     /// The mesh that was mapped.
     const Mesh& mesh(const Surface& source) const { return all->split ? all->split->mesh : source.mesh; }
 };
-SolvedOnto solve_onto(const Surface& source, const TargetDomain& target, const OntoOptions& options = {});
+SolvedOnto solve_onto(const Surface& source, const Constraints& onto, const ExtremalOptions& options = {});
 /// Any other way to such a map.
-SolvedOnto solve_onto(const std::function<ExtremalMapOnto()>& solver);
+SolvedOnto solve_onto(const std::function<ExtremalMap()>& solver);
 
 /// k of a dilatation.
 double k_of(double K);
@@ -45,7 +45,7 @@ std::vector<std::string> onto_row(const std::string& first, const Surface& sourc
                                   const SolvedOnto& solved);
 
 /// Where every loop's vertices lie, as parts of the arc length from the first one on: of the loop and of its curve.
-std::vector<Curve> correspondences(const Surface& source, const TargetDomain& target, const ExtremalMapOnto& map);
+std::vector<Curve> correspondences(const Surface& source, const TargetDomain& target, const ExtremalMap& map);
 
 /// A planar source and its target: solves, adds a row to @p table and a picture (circles on source and image, |μ|,
 /// histogram, boundary correspondence) to the figure.
@@ -57,7 +57,7 @@ struct OntoExample {
     std::vector<std::pair<Complex, Complex>> segments = {};
 
     SolvedOnto run(Output& output, Figure& figure, Table& table, const Surface& source, const TargetDomain& target,
-                   const OntoOptions& options = {}) const;
+                   const Correspondence& wanted = {}) const;
 };
 
 /// Largest |μ| and its 99th percentile, 1 where faces are turned over, of the maps after some iterations.
@@ -66,7 +66,8 @@ struct Energies {
     int settled = 0;  ///< iterations after which all had settled; 0: never
 };
 /// From the start that options give, on the source's own mesh; what the iterations so far have reached, one by one.
-Energies energies(const std::string& label, const Surface& source, const TargetDomain& target, OntoOptions options);
+Energies energies(const std::string& label, const Surface& source, const Constraints& onto,
+                  ExtremalOptions options = {});
 
 /// The path of a mesh in the folder BELTRAMI_MESHES; nothing, with a message, if it is not there.
 std::optional<std::filesystem::path> scan_path(const std::string& file);

@@ -31,13 +31,13 @@ void changing_places(Output& output, Figure& figure) {
         {{-0.35, 0.25}, {0.35, 0.25}}, {{-0.35, 0.25}, {-0.35, 0.94}}, {{0.35, 0.25}, {0.94, 0.34}}};
     std::vector<double> k;
     for (const double sign : {1.0, -1.0}) {
-        OntoOptions options = numbered(3);
-        options.waypoints =
+        Correspondence wanted = numbered(3);
+        wanted.waypoints =
             std::vector<Waypoint>{{1, 1, Complex(0, 0.25 - 0.25 * sign)}, {1, 2, Complex(0, 0.25 + 0.25 * sign)}};
         const std::string way = sign > 0 ? "counter-clockwise" : "clockwise";
         const SolvedOnto solved =
             OntoExample{"sliding_classes_" + way, "The upper holes change places, " + way, 26, "", segments}.run(
-                output, figure, table, source, circles_target(to), options);
+                output, figure, table, source, circles_target(to), wanted);
         if (solved) k.push_back(solved.all->k);
     }
     if (k.size() == 2) table.caption += ". Two classes, two maps: k = " + number(k[0], 5) + " and " + number(k[1], 5);
@@ -62,10 +62,10 @@ void rotated_starts(Figure& figure) {
                                              {0.5, 0, 0},
                                              {1, 0, 0},
                                              {2, 0, 0}}) {
-        OntoOptions options = numbered(2);
+        ExtremalOptions options;
         options.start_turns = turns;
         options.max_iterations = 200;
-        const SolvedOnto solved = solve_onto(source, target, options);
+        const SolvedOnto solved = solve_onto(source, {target, numbered(2)}, options);
         const std::string name = number(turns[0], 1) + ", " + number(turns[1], 1) + ", " + number(turns[2], 1);
         if (!solved) {
             table.rows.push_back({name, "refused: " + solved.refusal});
@@ -98,10 +98,10 @@ void symmetric_domains(Output& output, Figure& figure) {
     const auto both = [&](const std::string& name, const std::string& caption, const std::vector<Hole>& from,
                           const std::vector<Hole>& to) {
         const Surface source(disk_with_holes(from, 0.03)), target(disk_with_holes(to, 0.03));
-        const OntoOptions options = numbered(from.size());
-        OntoExample{name, caption}.run(output, figure, table, source, circles_target(to), options);
+        const Correspondence wanted = numbered(from.size());
+        OntoExample{name, caption}.run(output, figure, table, source, circles_target(to), wanted);
         table.rows.push_back(
-            onto_row(caption + ", back", target, "", solve_onto(target, circles_target(from), options)));
+            onto_row(caption + ", back", target, "", solve_onto(target, {circles_target(from), wanted})));
     };
     both("sliding_classes_line", "Three holes in line", {{-0.5, 0, 0.1}, {0, 0, 0.1}, {0.5, 0, 0.1}},
          {{-0.5, 0, 0.15}, {0, 0, 0.2}, {0.5, 0, 0.15}});
@@ -174,9 +174,9 @@ Figure sliding_distance(Output& output) {
         surfaces.emplace_back(domain_mesh(shape.domain, 0.05));
         names.push_back(shape.name);
     }
-    OntoOptions options;
-    options.match_by = MatchBy::size;
-    const DistanceMatrix matrix = distance_matrix(surfaces, options);
+    Correspondence wanted;
+    wanted.match_by = MatchBy::size;
+    const DistanceMatrix matrix = distance_matrix(surfaces, wanted);
     const std::vector<Merge> merges = cluster_by_distance(matrix.distance);
     Table table{
         "Eight shapes of two families (two like holes; a large and a small one), meshes of edge length .05, holes "

@@ -17,9 +17,9 @@ constexpr double kAzimuth = -90, kElevation = 84;
 
 const std::vector<Hole> kRoundHoles{{0.1, 0.1, 0.15}, {-0.5, -0.5, 0.15}, {-0.55, 0.3, 0.15}};
 
-std::string pairs(const OntoOptions& options) {
+std::string pairs(const Correspondence& wanted) {
     std::string text;
-    for (const auto& [loop, curve] : options.loops)
+    for (const auto& [loop, curve] : wanted.loops)
         text += (text.empty() ? "" : ", ") + std::to_string(loop) + ":" + std::to_string(curve);
     return text;
 }
@@ -72,33 +72,34 @@ void scan_onto_disk(Output& output, Figure& figure, const Surface& face) {
     std::vector<std::array<int, 2>> worst_loops;
     std::array<int, 3> curves{1, 2, 3};
     do {
-        OntoOptions options;
-        options.loops = {{0, 0}, {1, curves[0]}, {2, curves[1]}, {3, curves[2]}};
-        SolvedOnto solved = solve_onto(face, target, options);
-        table.rows.push_back(start_row(pairs(options), face, solved));
+        Correspondence wanted;
+        wanted.loops = {{0, 0}, {1, curves[0]}, {2, curves[1]}, {3, curves[2]}};
+        SolvedOnto solved = solve_onto(face, {target, wanted});
+        table.rows.push_back(start_row(pairs(wanted), face, solved));
         if (!solved) continue;
-        if (!best || solved.all->k < best->all->k) best = solved, best_pairs = pairs(options);
+        if (!best || solved.all->k < best->all->k) best = solved, best_pairs = pairs(wanted);
         if (!worst || solved.all->start_flips > worst->all->start_flips)
-            worst = solved, worst_pairs = pairs(options), worst_loops = options.loops;
+            worst = solved, worst_pairs = pairs(wanted), worst_loops = wanted.loops;
     } while (std::next_permutation(curves.begin(), curves.end()));
     // The bracket of a large K narrows on a finer mesh of the same surface.
     if (worst) {
         const Surface finer(midpoint_subdivide(face.mesh).mesh);
-        OntoOptions options;
-        options.loops = worst_loops;
+        Correspondence wanted;
+        wanted.loops = worst_loops;
         table.rows.push_back(
-            start_row(worst_pairs + ", every face in four", finer, solve_onto(finer, target, options)));
+            start_row(worst_pairs + ", every face in four", finer, solve_onto(finer, {target, wanted})));
     }
     // The scan's own mesh folds far more.
     const auto without_coarse = [&](std::vector<std::array<int, 2>> loops, std::vector<double> turns,
                                     const std::string& note) {
-        OntoOptions options;
-        options.loops = std::move(loops);
+        Correspondence wanted;
+        wanted.loops = std::move(loops);
+        ExtremalOptions options;
         options.start_turns = std::move(turns);
         options.max_iterations = 200;
         options.coarse_start = false;
-        table.rows.push_back(start_row(pairs(options) + ", start on the scan's own mesh" + note, face,
-                                       solve_onto(face, target, options)));
+        table.rows.push_back(start_row(pairs(wanted) + ", start on the scan's own mesh" + note, face,
+                                       solve_onto(face, {target, wanted}, options)));
     };
     without_coarse({{0, 0}, {1, 2}, {2, 1}, {3, 3}}, {}, "");
     without_coarse({{0, 0}, {1, 2}, {2, 3}, {3, 1}}, {0, 2, -2, 2}, ", holes turned by 2, −2, 2 rad");
@@ -122,13 +123,14 @@ void scan_onto_disk(Output& output, Figure& figure, const Surface& face) {
 
 /// The course of the iteration from starts of all kinds (their Fig. 21).
 void course(Figure& figure, const Surface& face) {
-    OntoOptions plain, turned, far;
+    Correspondence far;
+    ExtremalOptions turned;
     turned.start_turns = {0, 2, -2, 2};
     far.loops = {{0, 0}, {1, 1}, {2, 2}, {3, 3}};
     const TargetDomain target = circles_target(kRoundHoles);
-    const std::vector<Energies> all{energies("matched", face, target, plain),
+    const std::vector<Energies> all{energies("matched", face, target),
                                     energies("holes turned by 2, −2, 2 rad", face, target, turned),
-                                    energies("another pairing", face, target, far)};
+                                    energies("another pairing", face, {target, far})};
     Picture picture{"sliding_12_course",
                     "alex_3 onto the disk with three holes, from starts on its own mesh: the largest |μ| and its 99th "
                     "percentile after every iteration (1: faces are turned over).",
@@ -157,12 +159,8 @@ void amoeba_onto_disk(Output& output, Figure& figure) {
 
 /// A map between two surfaces in space: small circles of the source's circle domain on both.
 void between(Output& output, Figure& figure, Table& table, const std::string& name, const std::string& caption,
-             const Surface& source, const Surface& target, const OntoOptions& options) {
-    std::optional<ExtremalMapOntoSurface> found;
-    const SolvedOnto solved = solve_onto([&] {
-        found = extremal_map(source, target, options);
-        return found->plane;
-    });
+             const Surface& source, const Surface& target, const Correspondence& wanted = {}) {
+    const SolvedOnto solved = solve_onto(source, {target, wanted});
     table.rows.push_back(start_row(caption, source, solved));
     if (!solved) return;
     const Mesh& mapped = solved.mesh(source);
@@ -170,7 +168,7 @@ void between(Output& output, Figure& figure, Table& table, const std::string& na
     const Eigen::VectorXd& mu = solved.all->distortion.face_abs_mu;
     Mesh image;
     image.faces = mapped.faces;
-    image.positions = found->positions;
+    image.positions = solved.all->positions;
     const std::string from = write_in_plane(output, name + "_source", mapped, chart, mu),
                       to = write_in_plane(output, name + "_image", image, chart, mu);
     const double shown = std::clamp(1.6 * solved.all->k, 0.1, 1.0);
@@ -223,10 +221,10 @@ Figure sliding_13(Output& output) {
                   "*The paper:* a face with three holes is mapped to a simple parameter domain; a structured grid and "
                   "a chessboard there are carried back to the face (Fig. 22)."};
     const Surface face(read_mesh(*path).mesh);
-    OntoOptions options;
-    options.loops = {{0, 0}, {1, 2}, {2, 3}, {3, 1}};
-    const SolvedOnto solved = solve_onto(face, circles_target(kRoundHoles), options);
-    Table table{"The parameter map of alex_3", start_head("loop:curve"), {start_row(pairs(options), face, solved)}};
+    Correspondence wanted;
+    wanted.loops = {{0, 0}, {1, 2}, {2, 3}, {3, 1}};
+    const SolvedOnto solved = solve_onto(face, {circles_target(kRoundHoles), wanted});
+    Table table{"The parameter map of alex_3", start_head("loop:curve"), {start_row(pairs(wanted), face, solved)}};
     figure.tables.push_back(std::move(table));
     if (!solved) return figure;
     const Surface source(solved.mesh(face));

@@ -55,7 +55,7 @@ Figure sliding_06(Output& output) {
         OntoExample{"sliding_06", "Five holes", 26}.run(output, figure, table, source, circles_target(to), numbered(5));
         const Surface target(disk_with_holes(to, kEdge));
         table.rows.push_back(
-            onto_row("Five holes, back", target, "", solve_onto(target, circles_target(from), numbered(5))));
+            onto_row("Five holes, back", target, "", solve_onto(target, {circles_target(from), numbered(5)})));
     }
     {
         const std::vector<Hole> from = nine_holes(0.12, 0.6, 0, 0.1, 0.1), to = nine_holes(0.2, 0.65, 0.2, 0.06, 0.14);
@@ -63,7 +63,7 @@ Figure sliding_06(Output& output) {
         OntoExample{"sliding_07", "Nine holes", 26}.run(output, figure, table, source, circles_target(to), numbered(9));
         const Surface target(disk_with_holes(to, kEdge));
         table.rows.push_back(
-            onto_row("Nine holes, back", target, "", solve_onto(target, circles_target(from), numbered(9))));
+            onto_row("Nine holes, back", target, "", solve_onto(target, {circles_target(from), numbered(9)})));
     }
     figure.tables.push_back(std::move(table));
     return figure;
@@ -163,7 +163,7 @@ Figure sliding_09(Output&) {
             start = std::clock();
             solved = solve_onto([&] {
                 const Surface source(mesh);
-                return extremal_map(source, target, numbered(3));
+                return extremal_map(source, {target, numbered(3)});
             });
             if (!solved) break;
             extremal = std::min(extremal, solved.seconds);
@@ -181,7 +181,7 @@ Figure sliding_09(Output&) {
             return number(took / of_whole, 1) + " (" + number(took / of_harmonic, 1) + ")";
         };
         if (largest_ratio.empty()) largest_ratio = ratios(extremal, whole, harmonic);
-        const ExtremalMapOnto& found = *solved.all;
+        const ExtremalMap& found = *solved.all;
         for (const std::string& cell :
              {number(extremal, 3), ratios(extremal, whole, harmonic), number(whole_processor, 4),
               number(extremal_processor, 3), ratios(extremal_processor, whole_processor, harmonic_processor),

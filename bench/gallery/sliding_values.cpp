@@ -21,13 +21,14 @@ const std::vector<Hole> kExample5Source{{0, 0.5, 0.1}, {-0.4, -0.3, 0.1}, {0.4, 
 const std::vector<Hole> kExample5Target{{0, 0.5, 0.2}, {-0.4, -0.3, 0.2}, {0.4, -0.3, 0.2}};
 
 /// Marks of the boundary vertices at some points, which are sent to parameters of the outer curve.
-OntoOptions marks_at(const Surface& source, const std::vector<Complex>& points, const std::vector<double>& parameters) {
+Correspondence marks_at(const Surface& source, const std::vector<Complex>& points,
+                        const std::vector<double>& parameters) {
     const Eigen::VectorXcd z = planar_coordinates(source.mesh);
-    OntoOptions options;
+    Correspondence wanted;
     for (std::size_t i = 0; i < points.size(); ++i)
         for (const int v : source.topology.boundary_loops[0])
-            if (std::abs(z[v] - points[i]) < 1e-9) options.marks.push_back({v, 0, parameters[i]});
-    return options;
+            if (std::abs(z[v] - points[i]) < 1e-9) wanted.marks.push_back({v, 0, parameters[i]});
+    return wanted;
 }
 
 TargetDomain polygon_target(const std::vector<Complex>& corners) {
@@ -43,8 +44,8 @@ double modulus(double alpha) {
 SolvedOnto four_marks(const Surface& source, double from, double to) {
     std::vector<Complex> points;
     for (const double angle : {from, kPi - from, kPi + from, -from}) points.push_back(std::polar(1.0, angle));
-    return solve_onto(source, target_domain(TargetCurve::circle(0, 1)),
-                      marks_at(source, points, {to, kPi - to, kPi + to, 2 * kPi - to}));
+    return solve_onto(source, {target_domain(TargetCurve::circle(0, 1)),
+                               marks_at(source, points, {to, kPi - to, kPi + to, 2 * kPi - to})});
 }
 
 /// Angles of a loop's vertices about the centres of their circles before and after, ascending over one turn.
@@ -91,8 +92,9 @@ Figure sliding_values(Output&) {
                            const std::string& known) {
         for (const bool back : {false, true}) {
             const Surface source(disk_with_holes(back ? to : from, kEdge));
-            table.rows.push_back(onto_row(name + (back ? ", back" : ""), source, known,
-                                          solve_onto(source, circles_target(back ? from : to), numbered(from.size()))));
+            table.rows.push_back(
+                onto_row(name + (back ? ", back" : ""), source, known,
+                         solve_onto(source, {circles_target(back ? from : to), numbered(from.size())})));
         }
     };
     holes("ring .5…1 → .3…1", {{0, 0, 0.5}}, {{0, 0, 0.3}}, number(k_of(std::log(0.3) / std::log(0.5)), 7));
@@ -105,11 +107,11 @@ Figure sliding_values(Output&) {
         for (const bool back : {false, true}) {
             const double from = back ? b : 1, to = back ? 1 : b;
             const Surface source(polygon_domain({{0, 0}, {from, 0}, {from, 1}, {0, 1}}, {}, {.edge_length = kEdge}));
-            table.rows.push_back(
-                onto_row("rectangle " + number(from, 1) + " × 1 → " + number(to, 1) + " × 1", source,
-                         number(k_of(std::max(b, 1 / b)), 7),
-                         solve_onto(source, polygon_target({0, to, {to, 1}, {0, 1}}),
-                                    marks_at(source, {0, from, {from, 1}, {0, 1}}, {0, to, to + 1, 2 * to + 1}))));
+            table.rows.push_back(onto_row(
+                "rectangle " + number(from, 1) + " × 1 → " + number(to, 1) + " × 1", source,
+                number(k_of(std::max(b, 1 / b)), 7),
+                solve_onto(source, {polygon_target({0, to, {to, 1}, {0, 1}}),
+                                    marks_at(source, {0, from, {from, 1}, {0, 1}}, {0, to, to + 1, 2 * to + 1})})));
         }
     }
     {
@@ -126,15 +128,16 @@ Figure sliding_values(Output&) {
         Polygon outline;
         for (const Complex p : l_shape) outline.push_back({p.real(), p.imag()});
         const Surface source(polygon_domain(outline, {}, {.edge_length = kEdge, .corner_edge_length = corner}));
-        table.rows.push_back(onto_row("L → 1.5 × 1, edges of " + number(corner, 4) + " at the corners", source, "0.2",
-                                      solve_onto(source, polygon_target({0, 1.5, {1.5, 1}, {0, 1}}),
-                                                 marks_at(source, {0, 2, {1, 1}, {0, 2}}, {0, 1.5, 2.5, 4}))));
+        table.rows.push_back(
+            onto_row("L → 1.5 × 1, edges of " + number(corner, 4) + " at the corners", source, "0.2",
+                     solve_onto(source, {polygon_target({0, 1.5, {1.5, 1}, {0, 1}}),
+                                         marks_at(source, {0, 2, {1, 1}, {0, 2}}, {0, 1.5, 2.5, 4})})));
     }
     {
         const Surface source(polygon_domain({{0, 0}, {1.5, 0}, {1.5, 1}, {0, 1}}, {}, {.edge_length = kEdge}));
         table.rows.push_back(onto_row(
             "1.5 × 1 → L", source, "0.2",
-            solve_onto(source, polygon_target(l_shape), marks_at(source, {0, 1.5, {1.5, 1}, {0, 1}}, {0, 2, 4, 6}))));
+            solve_onto(source, {polygon_target(l_shape), marks_at(source, {0, 1.5, {1.5, 1}, {0, 1}}, {0, 2, 4, 6})})));
     }
     figure.tables.push_back(std::move(table));
     figure.remarks.push_back(
@@ -150,10 +153,10 @@ Figure sliding_04(Output& output) {
                   "about 30 iterations from an arbitrary start, few from a good one."};
     const Surface source(disk_with_holes(kExample4Source, kEdge));
     const TargetDomain target = circles_target(kExample4Target);
-    const OntoOptions options = numbered(3);
+    const Correspondence wanted = numbered(3);
     Table table{"", onto_head("map"), {}};
     const OntoExample example{"sliding_04", "Example 4", 26, "0.3758 ± 1e-4"};
-    const SolvedOnto solved = example.run(output, figure, table, source, target, options);
+    const SolvedOnto solved = example.run(output, figure, table, source, target, wanted);
     figure.tables.push_back(std::move(table));
     if (!solved) return figure;
 
@@ -166,11 +169,11 @@ Figure sliding_04(Output& output) {
                                        loop ? kExample4Target[loop - 1] : unit));
         monotone = monotone && is_monotone(loops.back());
     }
-    OntoOptions turned = options;
+    ExtremalOptions turned;
     turned.start_turns = {0, 2, -2, 1.5};
     const Surface coarse(disk_with_holes(kExample4Source, 2 * kEdge));
-    const Energies good = energies("even start", coarse, target, options),
-                   bad = energies("holes turned", coarse, target, turned);
+    const Energies good = energies("even start", coarse, {target, wanted}),
+                   bad = energies("holes turned", coarse, {target, wanted}, turned);
     Picture picture{"sliding_04_curves",
                     "Angles of boundary points about the centres of their circles; the largest |μ| and its 99th "
                     "percentile after every iteration (h = .04; 1: faces are turned over), from circles that begin "
@@ -210,13 +213,13 @@ Figure sliding_05(Output& output) {
     double last_std = 0, last_width = 0;
     for (const double h : {0.08, 0.04, 0.02, 0.01}) {
         const Surface source(disk_with_holes(kExample5Source, h));
-        const SolvedOnto solved = solve_onto(source, circles_target(kExample5Target), numbered(3));
+        const SolvedOnto solved = solve_onto(source, {circles_target(kExample5Target), numbered(3)});
         if (!solved) {
             table.rows.push_back({number(h, 2), std::to_string(source.mesh.vertex_count()),
                                   std::to_string(source.mesh.face_count()), "refused: " + solved.refusal});
             continue;
         }
-        const ExtremalMapOnto& found = *solved.all;
+        const ExtremalMap& found = *solved.all;
         const double width = k_of(found.K_upper) - k_of(found.K_lower), std = found.distortion.standard_deviation;
         const auto order = [](double last, double now) { return last > 0 ? number(std::log2(last / now), 2) : ""; };
         table.rows.push_back({number(h, 2), std::to_string(source.mesh.vertex_count()),

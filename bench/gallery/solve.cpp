@@ -28,9 +28,10 @@ Solved run(const Surface& surface, const std::string& method, const std::functio
 
 }  // namespace
 
-Solved solve(const Surface& surface, const BoundaryCondition& boundary, const std::string& method,
+Solved solve(const Surface& surface, const Constraints& constraints, const std::string& method,
              ExtremalOptions options) {
     if (!options.sharpen) options.sharpen = 0;
+    const BoundaryCondition& boundary = constraints.prescribed;
     return run(surface, method, [&](Solved& result) {
         const auto take = [&](BaselineMap found) {
             result.map = std::move(found.map);
@@ -39,7 +40,7 @@ Solved solve(const Surface& surface, const BoundaryCondition& boundary, const st
         if (method == "extremal" || method == "not evened") {
             if (method == "not evened") options.evening = ExtremalOptions::Evening::never;
 
-            result.all = extremal_map(surface, boundary, options);
+            result.all = extremal_map(surface, constraints, options);
             const ExtremalMap& found = *result.all;
             result.map = found.map;
             result.k = found.k;
@@ -58,7 +59,7 @@ Solved solve(const Surface& surface, const BoundaryCondition& boundary, const st
         } else if (method == "least maximum") {
             LeastMaximumOptions least;
             least.extremal = options;
-            LeastMaximumMap found = least_maximum_map(surface, boundary, least);
+            LeastMaximumMap found = least_maximum_map(surface, constraints, least);
             if (found.split && found.split->split_edges > 0) throw Error(Cause::not_solved, "edges had to be split");
             result.map = std::move(found.map);
             result.iterations = found.iterations;

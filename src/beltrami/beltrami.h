@@ -54,14 +54,13 @@
 #include <beltrami/solve/beltrami_solver.h>
 #include <beltrami/solve/composition.h>
 #include <beltrami/solve/quasiconformal_map.h>
-#include <beltrami/targets/marks.h>
+#include <beltrami/targets/correspondence.h>
 #include <beltrami/targets/target_domain.h>
 #include <beltrami/targets/target_mesh.h>
 #include <beltrami/teichmuller/certify.h>
 #include <beltrami/teichmuller/distance.h>
 #include <beltrami/teichmuller/extremal_between.h>
 #include <beltrami/teichmuller/extremal_map.h>
-#include <beltrami/teichmuller/extremal_onto.h>
 #include <beltrami/teichmuller/extremal_solver.h>
 #include <beltrami/teichmuller/least_maximum.h>
 #include <beltrami/unfold/fold_free.h>

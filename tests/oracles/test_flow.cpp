@@ -19,10 +19,10 @@ using test::Hole;
 
 constexpr double kPi = std::numbers::pi;
 
-OntoOptions loops_in_order(std::size_t holes) {
-    OntoOptions options;
-    for (int l = 0; l <= static_cast<int>(holes); ++l) options.loops.push_back({l, l});
-    return options;
+Correspondence loops_in_order(std::size_t holes) {
+    Correspondence wanted;
+    for (int l = 0; l <= static_cast<int>(holes); ++l) wanted.loops.push_back({l, l});
+    return wanted;
 }
 
 /// The domain between the images of the unit circle and of round holes: splines through many exact points.
@@ -153,9 +153,10 @@ TEST(FlowExample2, ReturnsToAMapBetweenCircleDomains) {
     const TargetDomain target = circles_target(to);
     for (const double h : {0.1, 0.05}) {
         const Surface source(disk_with_holes(from, h));
-        OntoOptions turned = loops_in_order(from.size());
+        FlowStartOptions turned;
         turned.start_turns = {0.2, 0.3, -0.3, 0.2};
-        const Reconstruction result = reconstruct(source, target, flow_start(source, target, turned).map);
+        const Reconstruction result =
+            reconstruct(source, target, flow_start(source, target, loops_in_order(from.size()), turned).map);
         ASSERT_LE(result.errors.size(), 12u);
         EXPECT_LT(result.errors[std::min<std::size_t>(result.errors.size(), 9) - 1], 1e-9);
         EXPECT_LT(result.flow.error.sup, 1e-8);

@@ -139,10 +139,8 @@ TEST(OuterLoop, ARingTurnedInsideOut) {
     const double K = std::log(0.3) / std::log(0.5);
     const auto inverted = [=](Complex z) { return 1.0 / (z * std::pow(std::abs(z), K - 1)); };
     const Solved straight = solve(bench::ring(0.06));
-    ExtremalOptions options;
-    options.outer_loop = 1;
-    const Solved solved = solve(
-        bench::with_exact_map("inverted", "", straight.problem.mesh, inverted, *straight.problem.exact_k), options);
+    const Solved solved =
+        solve(bench::with_exact_map("inverted", "", straight.problem.mesh, inverted, *straight.problem.exact_k), {}, 1);
     expect_sound(solved.result);
     EXPECT_EQ(solved.result.homotopy.outer_loop, 1);
     EXPECT_EQ(solved.result.homotopy.holes[0].loop, 0);
@@ -157,16 +155,16 @@ TEST(OuterLoop, OneOfThreeHolesGoesOutside) {
     Mesh mesh = three_holes(0.05);
     const Complex centre = test::exact_composition({0.4, 0.2});
     const Topology shape = topology(mesh);
-    ExtremalOptions options;
+    int outer_loop = 0;
     for (int loop = 1; loop < 4; ++loop)
         if (std::abs(std::abs(bench::place(mesh, shape.boundary_loops[loop][0]) - Complex(0.4, 0.2)) - 0.2) < 1e-9)
-            options.outer_loop = loop;
-    ASSERT_GT(options.outer_loop, 0);
+            outer_loop = loop;
+    ASSERT_GT(outer_loop, 0);
     // A Möbius map after the composition: K stays 3.
     const Solved solved = solve(bench::with_exact_map(
                                     "inverted", "", std::move(mesh),
                                     [=](Complex z) { return 1.0 / (test::exact_composition(z) - centre); }, 0.5),
-                                options);
+                                {}, outer_loop);
     expect_sound(solved.result);
     EXPECT_NEAR(solved.result.k, 0.5, 2e-3);
     EXPECT_LE(solved.result.K_lower, 3.0);

@@ -61,7 +61,7 @@ TEST_P(LargeTurnedRings, HaveTheirClosedForm) {
     EXPECT_GE(result.K_lower, 0.985 * solved.exact_K);
     EXPECT_GE(result.K_max, solved.exact_K);
     EXPECT_LE(solved.vertex_error, vertex_tolerance);
-    // A problem counts the outer loop's turns against the hole's, the record the other way round.
+    // The record counts the hole's turns against the outer loop.
     ASSERT_EQ(result.homotopy.holes.size(), 1u);
     EXPECT_EQ(result.homotopy.holes[0].turns, -turns);
     EXPECT_TRUE(result.homotopy.holes[0].meaningful);
@@ -95,10 +95,9 @@ TEST(TurnedRing, LostTurnsAreSaid) {
     DomainOptions domain;
     domain.edge_length = 0.1;
     const Surface surface(circle_domain({}, {{{0, 0}, 0.2}}, domain));
-    ExtremalOptions options;
-    options.turns = {0, 1};
-    const ExtremalMap result =
-        extremal_map(surface, test::boundary_values(surface, [](Complex z) { return z; }), options);
+    Constraints constraints(test::boundary_values(surface, [](Complex z) { return z; }));
+    constraints.correspondence.turns = {0, 1};
+    const ExtremalMap result = extremal_map(surface, constraints);
     if (result.homotopy.holes[0].turns != 1) {
         EXPECT_EQ(result.K_lower, 1.0) << "no bound of the wanted class";
         EXPECT_NE(result.warnings.at(0).find("lost its turns"), std::string::npos);

@@ -31,7 +31,7 @@ TEST(SlidingRing, ConvergesToTheRadialStretchWithSecondOrder) {
     const double exact = std::log(0.3) / std::log(0.5);
     double last_error = 0, last_std = 0;
     for (const double h : {0.08, 0.04, 0.02}) {
-        const ExtremalMapOnto result =
+        const ExtremalMap result =
             extremal_map(Surface(disk_with_holes({{0, 0, 0.5}}, h)), circles_target({{0, 0, 0.3}}));
         expect_sound(result);
         EXPECT_EQ(result.dimension, 1);
@@ -65,13 +65,13 @@ class KnownPairs : public testing::TestWithParam<KnownPair> {};
 TEST_P(KnownPairs, HaveTheirKBothWays) {
     const KnownPair& pair = GetParam();
     // Holes keep their numbers: other matchings of three alike holes make other maps.
-    OntoOptions options;
-    for (int l = 0; l <= static_cast<int>(pair.source.size()); ++l) options.loops.push_back({l, l});
-    const ExtremalMapOnto there =
-        extremal_map(Surface(disk_with_holes(pair.source, 0.04)), circles_target(pair.target), options);
-    const ExtremalMapOnto back =
-        extremal_map(Surface(disk_with_holes(pair.target, 0.04)), circles_target(pair.source), options);
-    for (const ExtremalMapOnto* result : {&there, &back}) {
+    Correspondence wanted;
+    for (int l = 0; l <= static_cast<int>(pair.source.size()); ++l) wanted.loops.push_back({l, l});
+    const ExtremalMap there =
+        extremal_map(Surface(disk_with_holes(pair.source, 0.04)), {circles_target(pair.target), wanted});
+    const ExtremalMap back =
+        extremal_map(Surface(disk_with_holes(pair.target, 0.04)), {circles_target(pair.source), wanted});
+    for (const ExtremalMap* result : {&there, &back}) {
         expect_sound(*result);
         EXPECT_EQ(result->dimension, pair.dimension);
         // At h = .04 the error of the mesh comes on top.
@@ -118,13 +118,13 @@ std::vector<Mark> rectangle_marks(const Surface& source, double a, double b) {
 TEST(SlidingRectangle, IsTheAffineMap) {
     for (const double b : {1.7, 0.6}) {
         const Surface source(polygon_domain({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {}, {.edge_length = 0.08}));
-        OntoOptions options;
-        options.marks = rectangle_marks(source, 1, b);
-        ASSERT_EQ(options.marks.size(), 4u);
-        const ExtremalMapOnto result =
-            extremal_map(source, target_domain(TargetCurve::polygon({{0, 0}, {b, 0}, {b, 1}, {0, 1}})), options);
+        Correspondence wanted;
+        wanted.marks = rectangle_marks(source, 1, b);
+        ASSERT_EQ(wanted.marks.size(), 4u);
+        const ExtremalMap result =
+            extremal_map(source, {target_domain(TargetCurve::polygon({{0, 0}, {b, 0}, {b, 1}, {0, 1}})), wanted});
         expect_sound(result);
-        EXPECT_EQ(result.space, OntoOptions::Space::one_form_squares);
+        EXPECT_EQ(result.space, ExtremalOptions::Space::one_form_squares);
         EXPECT_NEAR(result.K, std::max(b, 1 / b), 1e-9);
         EXPECT_NEAR(result.K_max, std::max(b, 1 / b), 1e-7);
         EXPECT_LT(result.boundary_residual, 1e-12);
@@ -143,10 +143,11 @@ TEST(SlidingDisk, WithFourMarksHasTheRatioOfModuli) {
     const double from = kPi / 4, to = kPi / 6;
     const double K = std::max(modulus(from), modulus(to)) / std::min(modulus(from), modulus(to));
     EXPECT_NEAR(k_of(K), 0.122523, 1e-6);
-    for (const auto space : {OntoOptions::Space::one_form_squares, OntoOptions::Space::laurent}) {
+    for (const auto space : {ExtremalOptions::Space::one_form_squares, ExtremalOptions::Space::laurent}) {
         const Surface source(disk_with_holes({}, 0.04));
         const Eigen::VectorXcd z = planar_coordinates(source.mesh);
-        OntoOptions options;
+        Correspondence wanted;
+        ExtremalOptions options;
         options.space = space;
         // The nearest boundary vertices stand for the marked points: the modulus of the four of them counts.
         std::array<double, 4> angles{from, kPi - from, kPi + from, 2 * kPi - from};
@@ -159,7 +160,7 @@ TEST(SlidingDisk, WithFourMarksHasTheRatioOfModuli) {
                     best = v;
             ASSERT_LT(std::abs(z[best] - std::polar(1.0, angles[i])), 0.03);
             angles[i] = std::arg(z[best]);
-            options.marks.push_back({best, 0, images[i]});
+            wanted.marks.push_back({best, 0, images[i]});
         }
         // Cross ratio of four points of a circle ↔ the angle α of the symmetric quadruple.
         const auto point = [&](int i) { return std::polar(1.0, angles[i]); };
@@ -167,7 +168,7 @@ TEST(SlidingDisk, WithFourMarksHasTheRatioOfModuli) {
             std::abs((point(0) - point(3)) * (point(1) - point(2)) / ((point(0) - point(2)) * (point(1) - point(3))));
         const double alpha = std::asin(std::sqrt(cross));
         const double exact = std::max(modulus(alpha), modulus(to)) / std::min(modulus(alpha), modulus(to));
-        const ExtremalMapOnto result = extremal_map(source, target_domain(TargetCurve::circle(0, 1)), options);
+        const ExtremalMap result = extremal_map(source, {target_domain(TargetCurve::circle(0, 1)), wanted}, options);
         expect_sound(result);
         EXPECT_EQ(result.space, space);
         EXPECT_EQ(result.dimension, 1);
@@ -179,7 +180,7 @@ TEST(SlidingDisk, WithFourMarksHasTheRatioOfModuli) {
 
 TEST(SlidingDisk, WithoutMarksIsConformal) {
     const Surface source(disk_with_holes({}, 0.08));
-    const ExtremalMapOnto result =
+    const ExtremalMap result =
         extremal_map(source, target_domain(TargetCurve::polygon({{0, 0}, {2, 0}, {2, 1}, {0, 1}})));
     expect_sound(result);
     EXPECT_EQ(result.dimension, 0);
@@ -192,15 +193,15 @@ TEST(SlidingLShape, ToARectangleHasItsSymmetricValue) {
     const Surface source(polygon_domain({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}, {},
                                         {.edge_length = 0.06, .corner_edge_length = 0.01}));
     const Eigen::VectorXcd z = planar_coordinates(source.mesh);
-    OntoOptions options;
+    Correspondence wanted;
     const std::array<Complex, 4> from{Complex(0, 0), Complex(2, 0), Complex(1, 1), Complex(0, 2)};
     const std::array<double, 4> to{0, 1.5, 2.5, 4};
     for (int i = 0; i < 4; ++i)
         for (const int v : source.topology.boundary_loops[0])
-            if (std::abs(z[v] - from[i]) < 1e-12) options.marks.push_back({v, 0, to[i]});
-    ASSERT_EQ(options.marks.size(), 4u);
-    const ExtremalMapOnto result =
-        extremal_map(source, target_domain(TargetCurve::polygon({{0, 0}, {1.5, 0}, {1.5, 1}, {0, 1}})), options);
+            if (std::abs(z[v] - from[i]) < 1e-12) wanted.marks.push_back({v, 0, to[i]});
+    ASSERT_EQ(wanted.marks.size(), 4u);
+    const ExtremalMap result =
+        extremal_map(source, {target_domain(TargetCurve::polygon({{0, 0}, {1.5, 0}, {1.5, 1}, {0, 1}})), wanted});
     EXPECT_TRUE(result.one_to_one());
     EXPECT_NEAR(result.k, 0.2, 6e-3);
 }
@@ -208,13 +209,13 @@ TEST(SlidingLShape, ToARectangleHasItsSymmetricValue) {
 TEST(SlidingClasses, RotatingTheStartChangesNothing) {
     const Surface source(disk_with_holes({{-0.4, 0.1, 0.2}, {0.35, 0, 0.25}}, 0.08));
     const TargetDomain target = circles_target({{-0.5, -0.2, 0.15}, {0.3, 0.3, 0.3}});
-    const ExtremalMapOnto plain = extremal_map(source, target);
+    const ExtremalMap plain = extremal_map(source, target);
     expect_sound(plain);
     for (const std::vector<double>& turns :
          {std::vector<double>{0.5, 0, 0}, {0, 1, -1}, {0.3, -2, 2}, {0, 0.7, 0}, {0, 2, 2}, {1, 0, 0}, {2, 0, 0}}) {
-        OntoOptions options;
+        ExtremalOptions options;
         options.start_turns = turns;
-        const ExtremalMapOnto turned = extremal_map(source, target, options);
+        const ExtremalMap turned = extremal_map(source, target, options);
         expect_sound(turned);
         EXPECT_NEAR(turned.k, plain.k, 1e-5);
         // Loops turn back before anything is led, and the iteration is as short as without the turns.
@@ -227,14 +228,14 @@ TEST(SlidingClasses, HolesThatChangePlacesEitherWayAreTwoMaps) {
     // outer loop turns along.)
     const Surface source(disk_with_holes({{-0.35, 0.25, 0.12}, {0.35, 0.25, 0.12}, {0, -0.5, 0.15}}, 0.06));
     const TargetDomain target = circles_target({{0.35, 0.25, 0.12}, {-0.35, 0.2, 0.14}, {0.1, -0.5, 0.15}});
-    std::vector<ExtremalMapOnto> results;
+    std::vector<ExtremalMap> results;
     for (const double sign : {1.0, -1.0}) {
-        OntoOptions options;
-        options.loops = {{0, 0}, {1, 1}, {2, 2}, {3, 3}};
-        options.waypoints =
+        Correspondence wanted;
+        wanted.loops = {{0, 0}, {1, 1}, {2, 2}, {3, 3}};
+        wanted.waypoints =
             std::vector<Waypoint>{{1, 1, Complex(0, 0.25 - 0.25 * sign)}, {1, 2, Complex(0, 0.25 + 0.25 * sign)}};
-        results.push_back(extremal_map(source, target, options));
-        const ExtremalMapOnto& result = results.back();
+        results.push_back(extremal_map(source, {target, wanted}));
+        const ExtremalMap& result = results.back();
         EXPECT_TRUE(result.led);
         EXPECT_EQ(result.path.size(), 2u);
         EXPECT_TRUE(result.one_to_one());
@@ -275,7 +276,7 @@ TEST(SlidingInvariance, MoebiusImagesOfADomainAreFoundConformal) {
             images.push_back({image.centre.real(), image.centre.imag(), image.radius});
         }
         const TargetDomain target = circles_target(images);
-        const ExtremalMapOnto result = extremal_map(source, target);
+        const ExtremalMap result = extremal_map(source, target);
         expect_sound(result);
         EXPECT_LT(result.k, 1e-3);
         EXPECT_EQ(result.start_flips, 0);
@@ -292,14 +293,14 @@ TEST(SlidingInvariance, MoebiusImagesOfADomainAreFoundConformal) {
 TEST(SlidingInvariance, AMoebiusImageOfTheTargetChangesNothing) {
     const Surface source(disk_with_holes({{-0.4, 0.1, 0.2}, {0.35, 0.3, 0.12}, {0.2, -0.45, 0.15}}, 0.06));
     const std::vector<Hole> near{{-0.5, 0, 0.2}, {0.4, 0.2, 0.18}, {0.2, -0.5, 0.1}};
-    const ExtremalMapOnto plain = extremal_map(source, circles_target(near));
+    const ExtremalMap plain = extremal_map(source, circles_target(near));
     const DiskMoebius move{1.3, {0.4, -0.3}};
     std::vector<Hole> far;
     for (const Hole& hole : near) {
         const RoundHole image = move(RoundHole{0, {hole[0], hole[1]}, hole[2]});
         far.push_back({image.centre.real(), image.centre.imag(), image.radius});
     }
-    const ExtremalMapOnto moved = extremal_map(source, circles_target(far));
+    const ExtremalMap moved = extremal_map(source, circles_target(far));
     expect_sound(moved);
     EXPECT_GT(plain.k, 0.05);
     EXPECT_NEAR(moved.k, plain.k, 5e-4);
@@ -311,11 +312,11 @@ TEST(SlidingInvariance, AMarkThatTurnsTheRingChangesNothing) {
     const TargetDomain target = circles_target({{0, 0, 0.3}});
     const double exact = k_of(std::log(0.3) / std::log(0.5));
     for (const double turn : {0.0, 1.5, 3.0, -2.0}) {
-        OntoOptions options;
+        Correspondence wanted;
         const int vertex = source.topology.boundary_loops[0][0];
         const Complex z(source.mesh.positions(vertex, 0), source.mesh.positions(vertex, 1));
-        options.marks = {{vertex, 0, target.outer.wrap(std::arg(z) + turn)}};
-        const ExtremalMapOnto result = extremal_map(source, target, options);
+        wanted.marks = {{vertex, 0, target.outer.wrap(std::arg(z) + turn)}};
+        const ExtremalMap result = extremal_map(source, {target, wanted});
         expect_sound(result);
         EXPECT_NEAR(result.k, exact, 2e-3);
         EXPECT_NEAR(std::abs(result.map[vertex] - z * std::polar(1.0, turn)), 0, 1e-9);
@@ -336,8 +337,8 @@ TEST_P(SymmetricHoles, AreNoSpecialCase) {
             to.push_back({c.real(), c.imag(), 0.2});
         }
     }
-    const ExtremalMapOnto there = extremal_map(Surface(disk_with_holes(from, 0.06)), circles_target(to));
-    const ExtremalMapOnto back = extremal_map(Surface(disk_with_holes(to, 0.06)), circles_target(from));
+    const ExtremalMap there = extremal_map(Surface(disk_with_holes(from, 0.06)), circles_target(to));
+    const ExtremalMap back = extremal_map(Surface(disk_with_holes(to, 0.06)), circles_target(from));
     expect_sound(there);
     expect_sound(back);
     EXPECT_NEAR(there.k, back.k, 2e-3);
@@ -349,19 +350,19 @@ INSTANTIATE_TEST_SUITE_P(Sliding, SymmetricHoles, testing::Values(0, 1));
 TEST(SlidingMistakes, AreSaid) {
     const Surface source(disk_with_holes({{0, 0, 0.4}}, 0.2));
     EXPECT_THROW(extremal_map(source, circles_target({})), Error);  // one hole against none
-    OntoOptions options;
-    options.loops = {{0, 1}, {1, 0}};
-    EXPECT_THROW(extremal_map(source, circles_target({{0, 0, 0.3}}), options), Error);  // the outer one goes inside
-    options.loops = {{0, 0}};
-    EXPECT_THROW(extremal_map(source, circles_target({{0, 0, 0.3}}), options), Error);  // a loop is left out
-    options.loops.clear();
+    Correspondence wanted;
+    wanted.loops = {{0, 1}, {1, 0}};
+    EXPECT_THROW(extremal_map(source, {circles_target({{0, 0, 0.3}}), wanted}), Error);  // the outer one goes inside
+    wanted.loops = {{0, 0}};
+    EXPECT_THROW(extremal_map(source, {circles_target({{0, 0, 0.3}}), wanted}), Error);  // a loop is left out
+    wanted.loops.clear();
     const auto& outer = source.topology.boundary_loops[0];
-    options.marks = {{outer[0], 0, 0.0}, {outer[4], 0, 4.0}, {outer[8], 0, 2.0}};
-    EXPECT_THROW(extremal_map(source, circles_target({{0, 0, 0.3}}), options), Error);  // marks out of order
+    wanted.marks = {{outer[0], 0, 0.0}, {outer[4], 0, 4.0}, {outer[8], 0, 2.0}};
+    EXPECT_THROW(extremal_map(source, {circles_target({{0, 0, 0.3}}), wanted}), Error);  // marks out of order
     int inside = 0;
     while (source.topology.on_boundary[inside]) ++inside;
-    options.marks = {{inside, 0, 0.0}};
-    EXPECT_THROW(extremal_map(source, circles_target({{0, 0, 0.3}}), options), Error);
+    wanted.marks = {{inside, 0, 0.0}};
+    EXPECT_THROW(extremal_map(source, {circles_target({{0, 0, 0.3}}), wanted}), Error);
 }
 
 }  // namespace

@@ -20,14 +20,12 @@ struct Solved {
     double exact_K = 0;       ///< of the continuous problem; 0 where unknown
 };
 
-inline Solved solve(bench::Problem problem, ExtremalOptions options = {}) {
-    // A problem counts the outer loop's turns against the hole's, the options the hole's against the outer one's.
-    if (!problem.turns.empty() && options.turns.empty()) {
-        options.turns = {0};
-        for (const int turns : problem.turns) options.turns.push_back(-turns);
-    }
+inline Solved solve(bench::Problem problem, const ExtremalOptions& options = {}, int outer_loop = 0) {
+    Constraints constraints(problem.boundary);
+    constraints.correspondence.turns = problem.turns;
+    constraints.correspondence.outer_loop = outer_loop;
     Solved solved{std::move(problem), {}};
-    solved.result = extremal_map(solved.problem.mesh, solved.problem.boundary, options);
+    solved.result = extremal_map(solved.problem.mesh, constraints, options);
     if (solved.problem.exact)
         solved.vertex_error =
             (solved.result.map.head(solved.problem.exact->size()) - *solved.problem.exact).cwiseAbs().maxCoeff();
@@ -59,7 +57,7 @@ inline bench::Problem twisted_annulus(double kappa, int turns, int around, doubl
             return std::polar(std::exp(kappa * log_r), std::arg(z) + s * log_r);
         },
         (K - 1) / (K + 1));
-    problem.turns = {turns};
+    problem.turns = {0, -turns};
     return problem;
 }
 

@@ -3,7 +3,8 @@
 #include <span>
 #include <vector>
 
-#include <beltrami/teichmuller/extremal_onto.h>
+#include <beltrami/starts/sliding_loops.h>
+#include <beltrami/targets/correspondence.h>
 
 namespace beltrami {
 

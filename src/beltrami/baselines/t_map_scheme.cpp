@@ -7,7 +7,7 @@
 #include <beltrami/base/error.h>
 #include <beltrami/operators/sample_neighbours.h>
 #include <beltrami/solve/sliding_map_step.h>
-#include <beltrami/teichmuller/sliding_loops.h>
+#include <beltrami/starts/sliding_loops.h>
 
 namespace beltrami {
 
@@ -46,7 +46,7 @@ class Scheme {
           options_(options),
           neighbours_(source),
           boundary_(source, start.loops),
-          sliding_(source, boundary_, kExpectedFactorizations),
+          sliding_(source, boundary_, start.map, kExpectedFactorizations),
           fixed_(source, held_boundary(boundary_.freedoms()), kExpectedFactorizations) {
         result_.map = start.map;
         boundary_.place(result_.map);
@@ -113,7 +113,9 @@ class Scheme {
     }
 
     void slide(const Eigen::VectorXcd& nu, TMapSolve::Part part) {
-        sliding_.solve(nu, result_.map, kSolveTolerance);
+        sliding_.set_map(std::move(result_.map));
+        sliding_.solve(nu, kSolveTolerance);
+        result_.map = sliding_.map();
         record(part);
     }
 
@@ -165,9 +167,9 @@ TMapSchemeResult t_map_scheme(const Surface& source, const SlidingStart& start, 
 }
 
 TMapSchemeResult t_map_scheme(const Surface& source, const TargetDomain& target, const TMapSchemeOptions& options,
-                              const OntoOptions& start) {
+                              const Correspondence& wanted, const FlowStartOptions& start) {
     options.validate();
-    return t_map_scheme(source, flow_start(source, target, start), options);
+    return t_map_scheme(source, flow_start(source, target, wanted, start), options);
 }
 
 }  // namespace beltrami

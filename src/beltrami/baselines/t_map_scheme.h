@@ -59,8 +59,8 @@ struct TMapSchemeResult : SlidMap {
 /// @throw Error bad_mesh, bad_option, bad_boundary, not_solved, cancelled
 TMapSchemeResult t_map_scheme(const Surface& source, const SlidingStart& start, const TMapSchemeOptions& options = {});
 
-/// The same from flow_start(source, target, start).
+/// The same from flow_start(source, target, wanted, start).
 TMapSchemeResult t_map_scheme(const Surface& source, const TargetDomain& target, const TMapSchemeOptions& options = {},
-                              const OntoOptions& start = {});
+                              const Correspondence& wanted = {}, const FlowStartOptions& start = {});
 
 }  // namespace beltrami

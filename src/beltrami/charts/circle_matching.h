@@ -5,13 +5,9 @@
 #include <vector>
 
 #include <beltrami/plane/disk_moebius.h>
+#include <beltrami/targets/correspondence.h>
 
 namespace beltrami {
-
-enum class MatchBy {
-    position,  ///< nearest after the best Möbius map of the disk
-    size,      ///< the largest to the largest, and so on
-};
 
 /// A place of one disk, its circle included, that belongs to one of another.
 struct PlacePair {

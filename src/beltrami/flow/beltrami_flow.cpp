@@ -9,7 +9,7 @@
 #include <beltrami/solve/quasiconformal_map.h>
 #include <beltrami/solve/sliding_map_step.h>
 #include <beltrami/solve/vertex_samples.h>
-#include <beltrami/teichmuller/sliding_loops.h>
+#include <beltrami/starts/sliding_loops.h>
 
 namespace beltrami {
 
@@ -36,7 +36,8 @@ double relative_change(const Surface& source, const Eigen::VectorXcd& a, const E
 }
 
 /// What a step asks for: the coefficient, or a mean of it and that of the map at hand.
-Eigen::VectorXcd wanted(const Surface& source, const Eigen::VectorXcd& map, const Eigen::VectorXcd& mu, double step) {
+Eigen::VectorXcd asked_for(const Surface& source, const Eigen::VectorXcd& map, const Eigen::VectorXcd& mu,
+                           double step) {
     if (step == 1) return mu;
     Eigen::VectorXcd nu = beltrami_coefficient(source.operators, map);
     for (Eigen::Index s = 0; s < nu.size(); ++s) {
@@ -116,11 +117,12 @@ FlowMap beltrami_flow(const Surface& source, const Eigen::VectorXcd& mu, const S
     result.map = start.map;
     SlidingBoundary boundary(source, start.loops);
     boundary.place(result.map);
-    SlidingMapStep step(source, boundary, kExpectedFactorizations);
+    SlidingMapStep step(source, boundary, result.map, kExpectedFactorizations);
     result.termination = Termination::iteration_limit;
     while (result.iterations < options.max_iterations) {
         const Eigen::VectorXcd before = result.map;
-        step.solve(wanted(source, before, mu, options.step), result.map, 0.1 * options.tolerance);
+        step.solve(asked_for(source, before, mu, options.step), 0.1 * options.tolerance);
+        result.map = step.map();
         ++result.iterations;
         FlowIteration now{step.movement(), relative_change(source, before, result.map),
                           coefficient_error(source, result.map, mu), 0};
@@ -148,10 +150,10 @@ FlowMap beltrami_flow(const Surface& source, const Eigen::VectorXcd& mu, const S
 }
 
 FlowMap beltrami_flow(const Surface& source, const TargetDomain& target, const Eigen::VectorXcd& mu,
-                      const FlowOptions& options, const OntoOptions& start) {
+                      const FlowOptions& options, const Correspondence& wanted, const FlowStartOptions& start) {
     options.validate();
     require_coefficient(source, mu);
-    return beltrami_flow(source, mu, flow_start(source, target, start), options);
+    return beltrami_flow(source, mu, flow_start(source, target, wanted, start), options);
 }
 
 }  // namespace beltrami

@@ -53,7 +53,6 @@ struct FlowOptions {
 struct FlowMap : SlidMap {
     CoefficientError error;  ///< of map
     bool fits = true;        ///< coefficient_fits(error)
-    int iterations = 0;
     std::vector<FlowIteration> history;
 };
 
@@ -72,8 +71,9 @@ struct FlowMap : SlidMap {
 FlowMap beltrami_flow(const Surface& source, const Eigen::VectorXcd& mu, const SlidingStart& start,
                       const FlowOptions& options = {});
 
-/// The same from flow_start(source, target, start).
+/// The same from flow_start(source, target, wanted, start).
 FlowMap beltrami_flow(const Surface& source, const TargetDomain& target, const Eigen::VectorXcd& mu,
-                      const FlowOptions& options = {}, const OntoOptions& start = {});
+                      const FlowOptions& options = {}, const Correspondence& wanted = {},
+                      const FlowStartOptions& start = {});
 
 }  // namespace beltrami

@@ -6,6 +6,8 @@
 #include <string>
 
 #include <beltrami/base/error.h>
+#include <beltrami/constraints/constraints.h>
+#include <beltrami/operators/distortion.h>
 
 namespace beltrami {
 
@@ -26,23 +28,19 @@ int nearest_curve(const std::vector<int>& loop, const TargetDomain& target, cons
 
 }  // namespace
 
-SlidingStart flow_start(const Surface& source, const TargetDomain& target, const OntoOptions& options) {
-    options.validate();
+SlidingStart flow_start(const Surface& source, const TargetDomain& target, const Correspondence& wanted,
+                        const FlowStartOptions& options) {
     require_genus_zero(source);
-    if (options.outer_loop >= static_cast<int>(source.topology.boundary_loops.size()))
-        throw Error(Cause::bad_option, "there is no boundary loop " + std::to_string(options.outer_loop));
-    if (!options.mark_vertices.empty())
-        throw Error(Cause::bad_option, "marks by vertices of the target are given for a target that has none",
-                    "give places on its curves instead");
+    validate(Constraints(target, wanted), source);
     const std::size_t loops = source.topology.boundary_loops.size();
     if (!options.start_turns.empty() && options.start_turns.size() != loops)
         throw Error(Cause::bad_option, "start turns are given for " + std::to_string(options.start_turns.size()) +
                                            " boundary loops, the source has " + std::to_string(loops));
-    const CircleDomainChart chart = circle_domain_chart(source, options.outer_loop);
+    const CircleDomainChart chart = circle_domain_chart(source, wanted.outer_loop);
     const auto model = target_model(target, edge_length_for(source, target, options.target_edge_length));
-    SlidingStart start = sliding_start(source, chart, *model, options);
+    SlidingStart start = sliding_start(source, chart, *model, wanted, options.start_turns);
     start.factorizations += chart.factorizations + model->factorizations();
-    hold_what_conformal_maps_move(start.loops, options.outer_loop, options.marks.size());
+    hold_what_conformal_maps_move(start.loops, wanted.outer_loop, wanted.marks.size());
     return start;
 }
 

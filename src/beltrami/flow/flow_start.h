@@ -1,15 +1,20 @@
 #pragma once
 
-#include <beltrami/teichmuller/sliding_start.h>
+#include <beltrami/starts/sliding_start.h>
 
 namespace beltrami {
+
+struct FlowStartOptions {
+    double target_edge_length = 0;  ///< of the mesh of a target that is not round; 0: that of the source, relatively
+    std::vector<double> start_turns = {};  ///< see sliding_start
+};
 
 /// A start for flows onto a domain, as extremal_map finds it: the loops matched and the harmonic map, or one led along
 /// a way (sliding_start.h). Marked vertices are held; without two holes so are as many others as conformal maps leave
 /// free.
-/// @param options outer_loop, loops, match_by, marks, waypoints, start_turns and target_edge_length count
 /// @throw Error bad_mesh (one component of genus 0 with a boundary), bad_boundary, bad_option, not_solved
-SlidingStart flow_start(const Surface& source, const TargetDomain& target, const OntoOptions& options = {});
+SlidingStart flow_start(const Surface& source, const TargetDomain& target, const Correspondence& wanted = {},
+                        const FlowStartOptions& options = {});
 
 /// A given map as a start: every loop goes to the curve that its vertices are nearest to, they to the nearest points.
 /// @param map  #V in the target's plane

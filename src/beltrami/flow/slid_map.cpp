@@ -1,7 +1,7 @@
 #include <beltrami/flow/slid_map.h>
 
 #include <beltrami/base/error.h>
-#include <beltrami/teichmuller/sliding_loops.h>
+#include <beltrami/starts/sliding_loops.h>
 
 namespace beltrami {
 

@@ -3,20 +3,15 @@
 #include <string>
 #include <vector>
 
-#include <beltrami/teichmuller/sliding_start.h>
+#include <beltrami/solve/map_result.h>
+#include <beltrami/starts/sliding_loops.h>
+#include <beltrami/starts/sliding_start.h>
 
 namespace beltrami {
 
 /// What iterations whose boundary slides end with: FlowMap, TMapSchemeResult.
-struct SlidMap {
-    Eigen::VectorXcd map;         ///< #V images in the target's plane
-    Distortion distortion;        ///< of map
+struct SlidMap : MapResult {
     std::vector<LoopOnto> loops;  ///< in the order of the source's loops
-    Termination termination = Termination::converged;
-    int factorizations = 0;
-    std::vector<std::string> warnings;
-
-    bool one_to_one() const { return distortion.flipped.empty() && distortion.degenerate.empty(); }
 };
 
 /// @throw Error bad_option if the start is one of another source

@@ -3,15 +3,9 @@
 #include <vector>
 
 #include <beltrami/constraints/boundary_condition.h>
+#include <beltrami/targets/correspondence.h>
 
 namespace beltrami {
-
-/// Where the centre of a hole's image is at a step of a continuation.
-struct Waypoint {
-    int step = 1;      ///< from 1; the prescribed boundary values come one step after the last waypoint
-    int loop = 0;      ///< of topology.boundary_loops, not the outer one
-    Complex position;  ///< in the plane of the images
-};
 
 /// Boundary values on the way from a planar domain to prescribed ones: the centres of the holes move along polylines
 /// through waypoints, straight without any. Maps that follow the way in small steps end in the homotopy class that it

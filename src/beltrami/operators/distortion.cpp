@@ -1,6 +1,5 @@
 #include <beltrami/operators/distortion.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -25,48 +24,19 @@ Complex quotient(Complex d_z, Complex d_zbar) {
     return zbar > 0 ? Complex(kInfinity, 0) : Complex(kNaN, kNaN);
 }
 
-/// (∂f, ∂̄f) of a map into space, in an orthonormal frame of the image oriented by the image's vertex normals.
-std::array<Complex, 2> derivatives_in_space(const Operators& source, int sample, const Positions& image,
-                                            const Positions& normals) {
-    Eigen::Vector3d x = Eigen::Vector3d::Zero(), y = x, up = x;
-    const auto stencil = source.stencil(sample);
-    const auto gradient = source.gradient(sample);
-    const Eigen::RowVector3d base = image.row(stencil[0]);
-    for (std::size_t j = 0; j < stencil.size(); ++j) {
-        const Eigen::Vector3d p = image.row(stencil[j]) - base;
-        x += gradient[j].real() * p;
-        y += gradient[j].imag() * p;
-        up += normals.row(stencil[j]);
-    }
-    const Eigen::Vector3d normal = x.cross(y);
-    const double side = normal.dot(up) < 0 ? -1.0 : 1.0;
-    const Eigen::Vector3d& axis = x.squaredNorm() >= y.squaredNorm() ? x : y;
-    if (axis.squaredNorm() == 0) return {0.0, 0.0};
-    const Eigen::Vector3d e1 = axis.normalized();
-    // In the plane of x and y; where they are parallel the second coordinate is 0 whatever e2 is.
-    Eigen::Vector3d e2 = normal.cross(e1);
-    if (e2.squaredNorm() > 0) e2.normalize();
-    e2 *= side;
-    const Complex fx(x.dot(e1), x.dot(e2)), fy(y.dot(e1), y.dot(e2)), i(0, 1);
-    return {0.5 * (fx - i * fy), 0.5 * (fx + i * fy)};
-}
+}  // namespace
 
-template <class Derivatives>
-Eigen::VectorXcd coefficients(const Operators& source, Derivatives&& derivatives) {
-    Eigen::VectorXcd mu(source.sample_count());
-    parallel_for(0, source.sample_count(), [&](int begin, int end) {
-        for (int s = begin; s < end; ++s) {
-            const auto [d_z, d_zbar] = derivatives(s);
-            mu[s] = quotient(d_z, d_zbar);
-        }
+Eigen::VectorXcd beltrami_coefficient(const MapDerivatives& map) {
+    Eigen::VectorXcd mu(map.dz.size());
+    parallel_for(0, static_cast<int>(mu.size()), [&](int begin, int end) {
+        for (int s = begin; s < end; ++s) mu[s] = quotient(map.dz[s], map.dzbar[s]);
     });
     return mu;
 }
 
-template <class Derivatives>
-Distortion measure(const Operators& source, double squared_diameter, Derivatives&& derivatives) {
+Distortion distortion(const Operators& source, const MapDerivatives& map) {
     Distortion d;
-    d.mu = coefficients(source, derivatives);
+    d.mu = beltrami_coefficient(map);
     const MuStatistics statistics = mu_statistics(d.mu, source.weights);
     d.mean = statistics.mean;
     d.standard_deviation = statistics.standard_deviation;
@@ -78,8 +48,7 @@ Distortion measure(const Operators& source, double squared_diameter, Derivatives
     Eigen::VectorXd face_area = Eigen::VectorXd::Zero(source.face_count), image_area = face_area;
     for (int s = 0; s < source.sample_count(); ++s) {
         const int f = source.faces[s];
-        const auto [d_z, d_zbar] = derivatives(s);
-        image_area[f] += source.weights[s] * std::abs(std::norm(d_z) - std::norm(d_zbar));
+        image_area[f] += source.weights[s] * std::abs(std::norm(map.dz[s]) - std::norm(map.dzbar[s]));
         face_area[f] += source.weights[s];
         d.face_mu[f] += source.weights[s] * d.mu[s];
         d.face_abs_mu[f] = std::fmax(d.face_abs_mu[f], std::abs(d.mu[s]));  // fmax: NaN gives way
@@ -87,19 +56,17 @@ Distortion measure(const Operators& source, double squared_diameter, Derivatives
     for (int f = 0; f < source.face_count; ++f) {
         d.face_mu[f] /= face_area[f];
         if (d.face_abs_mu[f] > 1) d.flipped.push_back(f);
-        if (!(image_area[f] > kDegenerateArea * squared_diameter)) d.degenerate.push_back(f);
+        if (!(image_area[f] > kDegenerateArea * map.image_diameter * map.image_diameter)) d.degenerate.push_back(f);
     }
     return d;
 }
 
-}  // namespace
-
 Eigen::VectorXcd beltrami_coefficient(const Operators& source, const Eigen::VectorXcd& map) {
-    return coefficients(source, [&](int s) { return source.derivatives(s, map); });
+    return beltrami_coefficient(derivatives(source, map));
 }
 
 Eigen::VectorXcd beltrami_coefficient(const Operators& source, const Positions& image, const Positions& normals) {
-    return coefficients(source, [&](int s) { return derivatives_in_space(source, s, image, normals); });
+    return beltrami_coefficient(derivatives(source, image, normals));
 }
 
 double dilatation(double abs_mu) {
@@ -138,14 +105,7 @@ MuStatistics mu_statistics(const Eigen::VectorXcd& mu, const std::vector<double>
 }
 
 Distortion distortion(const Operators& source, const Eigen::VectorXcd& map) {
-    double x0 = kInfinity, x1 = -kInfinity, y0 = kInfinity, y1 = -kInfinity;
-    for (const int v : source.vertices) {
-        x0 = std::min(x0, map[v].real());
-        x1 = std::max(x1, map[v].real());
-        y0 = std::min(y0, map[v].imag());
-        y1 = std::max(y1, map[v].imag());
-    }
-    return measure(source, std::norm(Complex(x1 - x0, y1 - y0)), [&](int s) { return source.derivatives(s, map); });
+    return distortion(source, derivatives(source, map));
 }
 
 Distortion distortion(const Operators& source, const Positions& image, const Positions& normals) {
@@ -154,13 +114,7 @@ Distortion distortion(const Operators& source, const Positions& image, const Pos
         for (Eigen::Index v = 0; v < image.rows(); ++v) map[v] = {image(v, 0), image(v, 1)};
         return distortion(source, map);
     }
-    Eigen::RowVector3d low = Eigen::RowVector3d::Constant(kInfinity), high = -low;
-    for (const int v : source.vertices) {
-        low = low.cwiseMin(image.row(v));
-        high = high.cwiseMax(image.row(v));
-    }
-    return measure(source, (high - low).squaredNorm(),
-                   [&](int s) { return derivatives_in_space(source, s, image, normals); });
+    return distortion(source, derivatives(source, image, normals));
 }
 
 namespace {

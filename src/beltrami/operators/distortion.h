@@ -1,16 +1,15 @@
 #pragma once
 
-#include <beltrami/operators/operators.h>
+#include <beltrami/operators/map_derivatives.h>
 
 namespace beltrami {
 
-/// μ = ∂̄f/∂f at every sample (#S) of a map to the plane. |μ| < 1 exactly where the map keeps orientation, > 1 where it
+/// μ = ∂̄f/∂f at every sample (#S) of a map. |μ| < 1 exactly where the map keeps orientation, > 1 where it
 /// is turned over; infinite where ∂f = 0 only, NaN where both derivatives vanish.
+Eigen::VectorXcd beltrami_coefficient(const MapDerivatives& map);
 Eigen::VectorXcd beltrami_coefficient(const Operators& source, const Eigen::VectorXcd& map);
 
-/// The same of a map into space (#V×3). Orientation is judged against the image's own area-weighted vertex normals:
-/// a face whose image opposes them has |μ| > 1.
-/// @param normals #V×3 vertex normals of the image (vertex_normals of the image mesh)
+/// The same of a map into space (map_derivatives.h).
 Eigen::VectorXcd beltrami_coefficient(const Operators& source, const Positions& image, const Positions& normals);
 
 /// K = (1+|μ|)/|1−|μ||: infinite at |μ| = 1, and of a turned-over face the ratio of its singular values.
@@ -30,6 +29,9 @@ struct Distortion {
 
     double max_dilatation() const { return dilatation(max); }
 };
+
+/// Distortion of a map by its derivatives.
+Distortion distortion(const Operators& source, const MapDerivatives& map);
 
 /// Distortion of a map to the plane given at the vertices (#V).
 Distortion distortion(const Operators& source, const Eigen::VectorXcd& map);

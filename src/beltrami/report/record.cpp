@@ -255,8 +255,9 @@ MapRecord map_record(const Distortion& distortion) {
 namespace {
 
 /// Of either kind of extremal map: with the boundary prescribed, or sliding.
-template <class Extremal>
-MapRecord extremal_map_record(const Extremal& result) {
+}  // namespace
+
+MapRecord map_record(const ExtremalMap& result) {
     MapRecord record = map_record(result.distortion);
     record.k = result.k;
     record.K = result.K;
@@ -264,22 +265,6 @@ MapRecord extremal_map_record(const Extremal& result) {
     record.bounds = result.bounds;
     record.boundary_residual = result.boundary_residual;
     return record;
-}
-
-template <class Extremal>
-SolveRecord extremal_solve_record(const Extremal& result, double seconds_total) {
-    return {result.iterations,   to_string(result.termination), result.factorizations, seconds_total, {},
-            result.folds_removed};
-}
-
-}  // namespace
-
-MapRecord map_record(const ExtremalMap& result) {
-    return extremal_map_record(result);
-}
-
-MapRecord map_record(const ExtremalMapOnto& result) {
-    return extremal_map_record(result);
 }
 
 MapRecord map_record(const LeastMaximumMap& result) {
@@ -298,14 +283,11 @@ MapRecord map_record(const LeastMaximumMap& result) {
 }
 
 SolveRecord solve_record(const ExtremalMap& result, double seconds_total) {
-    return extremal_solve_record(result, seconds_total);
+    return {result.iterations,   to_string(result.termination), result.factorizations, seconds_total, {},
+            result.folds_removed};
 }
 
-SolveRecord solve_record(const ExtremalMapOnto& result, double seconds_total) {
-    return extremal_solve_record(result, seconds_total);
-}
-
-OntoRecord onto_record(const ExtremalMapOnto& result, const std::string& target) {
+OntoRecord onto_record(const ExtremalMap& result, const std::string& target) {
     return {target,
             result.space,
             result.dimension,

@@ -10,7 +10,6 @@
 #include <beltrami/teichmuller/distance.h>
 #include <beltrami/teichmuller/extremal_between.h>
 #include <beltrami/teichmuller/extremal_map.h>
-#include <beltrami/teichmuller/extremal_onto.h>
 #include <beltrami/teichmuller/least_maximum.h>
 
 namespace beltrami {
@@ -77,7 +76,7 @@ struct CertificateRecord {
 /// A map whose boundary slides onto a target.
 struct OntoRecord {
     std::string target;  ///< its file
-    OntoOptions::Space space = OntoOptions::Space::laurent;
+    ExtremalOptions::Space space = ExtremalOptions::Space::laurent;
     int dimension = 0, expected_dimension = 0;
     double gap = 0;  ///< how clearly the dimension was told
     double K_upper = 1;
@@ -153,12 +152,10 @@ SourceRecord source_record(const Mesh& mesh, const Topology& topology);
 SourceRecord source_record(const Surface& surface);
 MapRecord map_record(const Distortion& distortion);
 MapRecord map_record(const ExtremalMap& result);
-MapRecord map_record(const ExtremalMapOnto& result);
 /// Dilatation of the map itself; the lower bounds are those of the extremal map of its class.
 MapRecord map_record(const LeastMaximumMap& result);
 SolveRecord solve_record(const ExtremalMap& result, double seconds_total);
-SolveRecord solve_record(const ExtremalMapOnto& result, double seconds_total);
-OntoRecord onto_record(const ExtremalMapOnto& result, const std::string& target);
+OntoRecord onto_record(const ExtremalMap& result, const std::string& target);
 SolveRecord solve_record(const LeastMaximumMap& result, double seconds_total);
 CorrespondenceRecord correspondence_record(const ExtremalMapBetween& result, const std::string& target,
                                            std::size_t pairs);

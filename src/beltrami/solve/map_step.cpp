@@ -10,15 +10,15 @@ constexpr double kTryAgain = 0.3;
 
 }  // namespace
 
-void FixedMapStep::solve(const Eigen::VectorXcd& nu, Eigen::VectorXcd& map, double tolerance) {
+void FixedMapStep::solve(const Eigen::VectorXcd& nu, double tolerance) {
     if (near_ && !(kTryAgain * given_up_at_ <= tolerance && tolerance <= given_up_at_)) {
         const int before = solver_.factorization_count();
-        map = solver_.solve_near(nu, prescribed_, map, tolerance);
+        map_ = solver_.solve_near(nu, prescribed_, map_, tolerance);
         if (solver_.factorization_count() > before) given_up_at_ = tolerance;
         return;
     }
     solver_.factorize(nu, directions_);
-    map = solver_.solve(prescribed_);
+    map_ = solver_.solve(prescribed_);
     near_ = true;
 }
 

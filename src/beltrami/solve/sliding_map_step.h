@@ -9,13 +9,14 @@ namespace beltrami {
 /// lie on their curves, one step at a time; as ν settles, so does f. Interior vertices are free, sliding ones have one
 /// unknown along their tangent or line, prescribed ones none; the curves' curvature enters the diagonal, and vertices
 /// move along the true curves.
-class SlidingMapStep final : public MapStep {
+class SlidingMapStep final : public PlaneMapStep {
   public:
     /// @param source, boundary kept by reference; boundary holds where the vertices are
+    /// @param map #V to start from
     /// @param expected_factorizations see SymmetricSolver
-    SlidingMapStep(const Surface& source, SlidingBoundary& boundary, int expected_factorizations);
+    SlidingMapStep(const Surface& source, SlidingBoundary& boundary, Eigen::VectorXcd map, int expected_factorizations);
 
-    void solve(const Eigen::VectorXcd& nu, Eigen::VectorXcd& map, double tolerance) override;
+    void solve(const Eigen::VectorXcd& nu, double tolerance) override;
 
     /// The solver, for other systems of the same freedoms; the next solve() factorises again.
     BeltramiSolver& lend_solver() {

@@ -82,23 +82,27 @@ void CertifyOptions::validate() const {
     demand(least_progress >= 0 && least_progress < 1, "least_progress must lie between 0 and 1");
 }
 
-Certification certify(const Surface& source, const BoundaryCondition& boundary, double gap,
-                      const ExtremalOptions& options, const CertifyOptions& limits) {
+Certification certify(const Surface& source, const Constraints& constraints, double gap, const ExtremalOptions& options,
+                      const CertifyOptions& limits) {
     if (!(gap > 0)) throw Error(Cause::bad_option, "the gap must be positive");
     limits.validate();
+    if (!constraints.all_prescribed())
+        throw Error(Cause::bad_option, "where boundaries slide the bounds are estimates: nothing can be certified",
+                    "prescribe the boundary values");
     ExtremalOptions own = options;
     own.sharpen = std::max(0, options.sharpen.value_or(0));
     Certification done;
-    done.result = extremal_map(source, boundary, own);
+    done.result = extremal_map(source, constraints, own);
     done.gap = gap_of(done.result);
 
     std::optional<RefinedProblem> level;
     Eigen::VectorXcd last = done.result.map.head(source.mesh.vertex_count());
-    own.waypoints.reset();  // the finer meshes start from the last map
+    Constraints finer_constraints = constraints;
+    finer_constraints.correspondence.waypoints.reset();  // the finer meshes start from the last map
     own.sharpen = 0;
     own.growth = std::min(options.growth, kGrowthOfGap * gap);
     while (true) {
-        done.reason = obstacle(done.result, options.turns);
+        done.reason = obstacle(done.result, constraints.correspondence.turns);
         if (!done.reason.empty() && !(done.gap <= gap && done.result.termination == Termination::not_teichmuller))
             return done;
         if (done.gap <= gap) {
@@ -118,13 +122,14 @@ Certification certify(const Surface& source, const BoundaryCondition& boundary, 
                           std::to_string(limits.most_triangles);
             return done;
         }
-        RefinedProblem next = refined_problem(surface, level ? level->boundary : boundary);
+        RefinedProblem next = refined_problem(surface, finer_constraints.prescribed);
         own.start = next.interpolated(last);
         level.emplace(std::move(next));
+        finer_constraints.prescribed = level->boundary;
         const double before = done.gap;
         ExtremalMap finer;
         try {
-            finer = extremal_map(level->surface, level->boundary, own);
+            finer = extremal_map(level->surface, finer_constraints, own);
         } catch (const Error& error) {
             if (error.cause() == Cause::cancelled) throw;
             done.reason = "the gap is " + percent(before) + "; the finer mesh could not be solved: " + error.what();

@@ -32,7 +32,7 @@ struct Certification {
 /// K* is that of the polygons and the boundary values linear along their edges; for data sampled from smooth ones it
 /// differs from theirs by O(h²).
 /// @throw as extremal_map; Error bad_option for a gap that is not positive
-Certification certify(const Surface& source, const BoundaryCondition& boundary, double gap,
+Certification certify(const Surface& source, const Constraints& constraints, double gap,
                       const ExtremalOptions& options = {}, const CertifyOptions& limits = {});
 
 }  // namespace beltrami

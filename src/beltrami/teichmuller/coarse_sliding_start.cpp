@@ -7,7 +7,7 @@
 
 #include <beltrami/locate/planar_locator.h>
 #include <beltrami/meshing/planar_domains.h>
-#include <beltrami/teichmuller/onto_problem.h>
+#include <beltrami/teichmuller/sliding_solver.h>
 
 namespace beltrami {
 
@@ -89,24 +89,25 @@ class ParameterByAngle {
 }  // namespace
 
 std::optional<SlidingStart> coarse_sliding_start(const Surface& source, const CircleDomainChart& chart,
-                                                 const TargetModel& target, const OntoOptions& options) {
-    if (!options.coarse_start || !options.marks.empty() || source.mesh.vertex_count() < kWorthFrom) return {};
+                                                 const TargetModel& target, const Correspondence& wanted,
+                                                 const ExtremalOptions& options) {
+    if (!options.coarse_start || !wanted.marks.empty() || source.mesh.vertex_count() < kWorthFrom) return {};
     const Surface coarse = coarse_domain(chart);
     if (2 * coarse.mesh.vertex_count() > source.mesh.vertex_count()) return {};
     const std::vector<int> partner = coarse_loops(source, chart, coarse);
-    OntoOptions own = options;
+    ExtremalOptions own = options;
     own.tolerance = kCoarseTolerance;
     own.progress = {};
-    own.outer_loop = partner[options.outer_loop];
-    for (auto& [loop, curve] : own.loops)
+    Constraints coarse_onto(target.domain(), wanted);
+    coarse_onto.correspondence.outer_loop = partner[wanted.outer_loop];
+    for (auto& [loop, curve] : coarse_onto.correspondence.loops)
         if (loop >= 0 && loop < static_cast<int>(partner.size())) loop = partner[loop];
-    if (own.waypoints)
-        for (Waypoint& waypoint : *own.waypoints)
+    if (coarse_onto.correspondence.waypoints)
+        for (Waypoint& waypoint : *coarse_onto.correspondence.waypoints)
             if (waypoint.loop >= 0 && waypoint.loop < static_cast<int>(partner.size()))
                 waypoint.loop = partner[waypoint.loop];
     for (std::size_t l = 0; l < options.start_turns.size(); ++l) own.start_turns[partner[l]] = options.start_turns[l];
-    OntoProblem problem(coarse, own);
-    const ExtremalMapOnto solved = problem.solve(target);
+    const ExtremalMap solved = SlidingSolver(coarse, coarse_onto, own, &target).solve();
 
     SlidingStart result;
     result.move = solved.move;

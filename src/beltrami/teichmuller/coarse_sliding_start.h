@@ -2,7 +2,8 @@
 
 #include <optional>
 
-#include <beltrami/teichmuller/sliding_start.h>
+#include <beltrami/starts/sliding_start.h>
+#include <beltrami/teichmuller/extremal_options.h>
 
 namespace beltrami {
 
@@ -11,6 +12,7 @@ namespace beltrami {
 /// @return nothing where it would not pay (few vertices) or marks would have to be vertices of the coarse mesh
 /// @throw Error as extremal_map
 std::optional<SlidingStart> coarse_sliding_start(const Surface& source, const CircleDomainChart& chart,
-                                                 const TargetModel& target, const OntoOptions& options);
+                                                 const TargetModel& target, const Correspondence& wanted,
+                                                 const ExtremalOptions& options);
 
 }  // namespace beltrami

@@ -81,12 +81,12 @@ CoarseStart coarse_start(const Surface& source, const BoundaryCondition& boundar
     coarse_options.progress = {};
     coarse_options.grow_last = false;
     problem.map_step().set_near(false);
-    HamiltonIteration iteration(model, problem.map_step(), problem.coefficient_step(), coarse_options);
+    HamiltonIteration iteration(problem.map_step(), problem.coefficient_step(), coarse_options);
     CoarseStart result;
     // The degrees that the fine mesh resolves: on the coarse one the highest are rough, which is good enough for a
     // start.
     const int largest_degree = PolynomialSpace::largest_degree(source.operators.sample_count());
-    iteration.run(result.state, problem.harmonic(), problem.starting_space(largest_degree));
+    iteration.run(result.state, problem.starting_space(largest_degree));
     result.tight =
         iteration.converged() && bracket(iteration.last_step()) * model.mesh.face_count() < kTightPerTriangle;
     return result;

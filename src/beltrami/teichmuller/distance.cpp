@@ -15,23 +15,23 @@ double half_log(double K) {
     return 0.5 * std::log(std::max(1.0, K));
 }
 
-Distance distance_of(const ExtremalMapOnto& map) {
+Distance distance_of(const ExtremalMap& map) {
     return {half_log(map.K), half_log(map.K_lower), half_log(map.K_upper),
             map.termination == Termination::converged && map.one_to_one()};
 }
 
 }  // namespace
 
-Distance teichmueller_distance(const Surface& a, const Surface& b, const OntoOptions& options, int outer,
-                               bool both_ways) {
-    if (both_ways && (!options.loops.empty() || !options.mark_vertices.empty() || options.waypoints))
+Distance teichmueller_distance(const Surface& a, const Surface& b, const Correspondence& wanted,
+                               const ExtremalOptions& options, int outer, bool both_ways) {
+    if (both_ways && (!wanted.loops.empty() || !wanted.marks.empty() || wanted.waypoints))
         throw Error(Cause::bad_option, "pairs of loops, marks and waypoints are those of one direction",
                     "ask for that direction only");
-    const Distance there = distance_of(extremal_map(a, b, options, outer).plane);
+    const Distance there = distance_of(extremal_map(a, Constraints(b, wanted, outer), options));
     if (!both_ways) return there;
-    OntoOptions reversed = options;
+    Correspondence reversed = wanted;
     reversed.outer_loop = outer;
-    const Distance back = distance_of(extremal_map(b, a, reversed, options.outer_loop).plane);
+    const Distance back = distance_of(extremal_map(b, Constraints(a, reversed, wanted.outer_loop), options));
     Distance result{0.5 * (there.distance + back.distance), std::max(there.lower, back.lower),
                     std::min(there.upper, back.upper), there.settled && back.settled};
     // Errors of second order can make the bounds of the two directions cross.
@@ -40,8 +40,8 @@ Distance teichmueller_distance(const Surface& a, const Surface& b, const OntoOpt
     return result;
 }
 
-DistanceMatrix distance_matrix(const std::vector<Surface>& surfaces, const OntoOptions& options,
-                               const std::function<bool(int done, int all)>& progress) {
+DistanceMatrix distance_matrix(const std::vector<Surface>& surfaces, const Correspondence& wanted,
+                               const ExtremalOptions& options, const std::function<bool(int done, int all)>& progress) {
     const int n = static_cast<int>(surfaces.size());
     if (n < 2) throw Error(Cause::bad_option, "a distance needs two shapes");
     for (int i = 1; i < n; ++i)
@@ -56,7 +56,7 @@ DistanceMatrix distance_matrix(const std::vector<Surface>& surfaces, const OntoO
     int done = 0;
     for (int i = 0; i < n; ++i)
         for (int j = i + 1; j < n; ++j) {
-            const Distance d = teichmueller_distance(surfaces[i], surfaces[j], options, options.outer_loop);
+            const Distance d = teichmueller_distance(surfaces[i], surfaces[j], wanted, options, wanted.outer_loop);
             result.distance(i, j) = result.distance(j, i) = d.distance;
             result.lower(i, j) = result.lower(j, i) = d.lower;
             result.upper(i, j) = result.upper(j, i) = d.upper;

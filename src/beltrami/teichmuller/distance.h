@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include <beltrami/teichmuller/extremal_onto.h>
+#include <beltrami/teichmuller/extremal_map.h>
 
 namespace beltrami {
 
@@ -15,13 +15,13 @@ struct Distance {
 
 /// Distance between two surfaces of genus 0 with as many boundary loops, by the extremal map of each onto the other,
 /// whose boundary slides: the lower bound is the larger of the two, the upper one the smaller. Between matched loops
-/// and in the class of straight ways (extremal_onto.h): another matching or a braid may be nearer.
-/// @param options loops, marks and waypoints are those of the map from a to b, and must be absent if both directions
+/// and in the class of straight ways (extremal_map.h): another matching or a braid may be nearer.
+/// @param wanted loops, marks and waypoints are those of the map from a to b, and must be absent if both directions
 /// are
 ///                wanted
 /// @throw Error as extremal_map
-Distance teichmueller_distance(const Surface& a, const Surface& b, const OntoOptions& options = {}, int outer = 0,
-                               bool both_ways = true);
+Distance teichmueller_distance(const Surface& a, const Surface& b, const Correspondence& wanted = {},
+                               const ExtremalOptions& options = {}, int outer = 0, bool both_ways = true);
 
 /// All distances of some shapes: symmetric, 0 on the diagonal.
 struct DistanceMatrix {
@@ -32,7 +32,8 @@ struct DistanceMatrix {
 /// @param surfaces at least two, kept by reference during the call
 /// @param progress called after each pair with their number; returning false cancels (Error cancelled)
 /// @throw Error bad_boundary naming two shapes with different numbers of loops; as extremal_map
-DistanceMatrix distance_matrix(const std::vector<Surface>& surfaces, const OntoOptions& options = {},
+DistanceMatrix distance_matrix(const std::vector<Surface>& surfaces, const Correspondence& wanted = {},
+                               const ExtremalOptions& options = {},
                                const std::function<bool(int done, int all)>& progress = {});
 
 /// A step of hierarchical clustering: two clusters become one.

@@ -33,11 +33,14 @@ std::vector<MeshPoint> places_on_target(const Surface& source, const Surface& ta
 }
 
 ExtremalMapBetween extremal_map_between(const Surface& source, const Surface& target,
-                                        std::span<const std::array<int, 2>> pairs, const ExtremalOptions& options) {
+                                        std::span<const std::array<int, 2>> pairs, const Correspondence& wanted,
+                                        const ExtremalOptions& options) {
     options.validate();
     ExtremalMapBetween result;
-    result.target = prescribed_target(source, target, pairs, options.outer_loop);
-    result.plane = extremal_map(source, result.target.boundary, options);
+    result.target = prescribed_target(source, target, pairs, wanted.outer_loop);
+    Constraints constraints(result.target.boundary);
+    constraints.correspondence = wanted;
+    result.plane = extremal_map(source, constraints, options);
     result.plane.factorizations += result.target.circles.factorizations;
     for (Bound& bound : result.plane.bounds) bound.rigorous = false;
     const std::vector<std::string>& more = result.target.circles.chart.warnings;

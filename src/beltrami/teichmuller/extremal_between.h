@@ -43,9 +43,11 @@ struct ExtremalMapBetween {
 /// boundary correspondence: pairs of vertices, arc length between them. It does not change when the target is changed
 /// conformally, so the map goes to the target's circle domain (extremal_map.h), and from there to its faces.
 /// @param pairs   see boundary_correspondence
-/// @param options a start is one in the target's circle domain, and so are waypoints
+/// @param wanted  its outer loop and class; waypoints are in the target's circle domain
+/// @param options a start is a map to the target's circle domain
 /// @throw Error bad_mesh, bad_boundary, bad_option, not_solved, cancelled
 ExtremalMapBetween extremal_map_between(const Surface& source, const Surface& target,
-                                        std::span<const std::array<int, 2>> pairs, const ExtremalOptions& options = {});
+                                        std::span<const std::array<int, 2>> pairs, const Correspondence& wanted = {},
+                                        const ExtremalOptions& options = {});
 
 }  // namespace beltrami

@@ -10,6 +10,7 @@
 #include <beltrami/constraints/boundary_feasibility.h>
 #include <beltrami/differentials/polynomial_space.h>
 #include <beltrami/evening/even_dilatation.h>
+#include <beltrami/homotopy/continuation.h>
 #include <beltrami/homotopy/twist.h>
 #include <beltrami/mesh/planar.h>
 #include <beltrami/mesh/subdivide.h>
@@ -18,6 +19,7 @@
 #include <beltrami/teichmuller/prepared_problem.h>
 #include <beltrami/teichmuller/problem.h>
 #include <beltrami/teichmuller/problem_chart.h>
+#include <beltrami/teichmuller/sliding_solver.h>
 #include <beltrami/unfold/fold_free.h>
 
 namespace beltrami {
@@ -81,10 +83,12 @@ void prescribe(Eigen::VectorXcd& map, const BoundaryCondition& boundary) {
 struct ExtremalSolver::Implementation {
     ExtremalOptions options;
     BoundaryCondition boundary;
+    Correspondence wanted;
     PreparedProblem prepared;
     const Surface& source;
     ExtremalProblem problem;
     HamiltonState state;
+    Eigen::VectorXcd start;  // empty where φ is known from elsewhere
     Eigen::VectorXcd map;
     CoefficientStep::Result step;
     struct Settled {
@@ -105,15 +109,16 @@ struct ExtremalSolver::Implementation {
     std::optional<Chart> instead;           // for φ that needs those
     bool evened = false, folds_removed = false;
 
-    Implementation(const Surface& given, const BoundaryCondition& b, const ExtremalOptions& o, PreparedProblem p)
+    Implementation(const Surface& given, const Constraints& c, const ExtremalOptions& o, PreparedProblem p)
         : options(o),
-          boundary(b),
+          boundary(c.prescribed),
+          wanted(c.correspondence),
           prepared(std::move(p)),
           source(prepared.surface_of(given)),
           problem(source, boundary, kExpectedFactorizations) {
         if (prepared.split) warnings.push_back(prepared.split_warning("prescribed"));
         corners = find_corners(source, boundary);
-        ProblemChart charts = chart_of_problem(source, boundary, corners, options.outer_loop, problem.solver());
+        ProblemChart charts = chart_of_problem(source, boundary, corners, wanted.outer_loop, problem.solver());
         instead = std::move(charts.instead);
         Singularities singularities = take_chart(std::move(charts.chart), problem.harmonic());
         // Corners that only a fine mesh would resolve need no poles; that they do not, the coarse problem shows. In a
@@ -134,7 +139,7 @@ struct ExtremalSolver::Implementation {
         warnings.insert(warnings.end(), problem.chart().warnings.begin(), problem.chart().warnings.end());
         problem.set_singularities(std::move(singularities), options.cluster_count);
         if (source.topology.boundary_loops.size() > 1)
-            paths = loop_paths(source, problem.chart().vertices, options.outer_loop);
+            paths = loop_paths(source, problem.chart().vertices, wanted.outer_loop);
         choose_start();
     }
 
@@ -168,16 +173,17 @@ struct ExtremalSolver::Implementation {
         if (options.start) {
             map = prepared.split ? with_parents_means(*options.start, prepared.split->parents) : *options.start;
             prescribe(map, boundary);
-        } else if (options.waypoints) {
-            const Eigen::VectorXcd places = source.in_plane() && options.outer_loop == 0
+        } else if (wanted.waypoints) {
+            const Eigen::VectorXcd places = source.in_plane() && wanted.outer_loop == 0
                                                 ? planar_coordinates(source.mesh)
                                                 : problem.chart().vertices;
-            map = follow(source, Continuation(source, places, options.outer_loop, boundary, *options.waypoints)).map;
-        } else if (!options.turns.empty()) {
-            map = start_in_class(source, problem.chart().vertices, options.outer_loop, boundary, options.turns).map;
+            map = follow(source, Continuation(source, places, wanted.outer_loop, boundary, *wanted.waypoints)).map;
+        } else if (!wanted.turns.empty()) {
+            map = start_in_class(source, problem.chart().vertices, wanted.outer_loop, boundary, wanted.turns).map;
         } else if (smooth && !state.space) {
             state = coarse_start(source, boundary, problem.chart(), problem.phase(), options).state;
         }
+        start = state.space ? Eigen::VectorXcd() : map;
     }
 
     /// Whether the chart is that of the round disk.
@@ -188,7 +194,7 @@ struct ExtremalSolver::Implementation {
                            [&](int v) { return std::abs(std::abs(problem.chart().vertices[v]) - 1) < kRound; });
     }
 
-    bool has_plain_start() const { return !options.start && !options.waypoints && options.turns.empty(); }
+    bool has_plain_start() const { return !options.start && !wanted.waypoints && wanted.turns.empty(); }
 
     /// Whether vertices that are held to lines one by one move otherwise under the map than φ takes them to.
     bool held_have_turned() const {
@@ -213,13 +219,13 @@ struct ExtremalSolver::Implementation {
     /// Runs the iteration from where it stands.
     void iterate_once(const HamiltonIteration::Options& how) {
         problem.map_step().set_near(state.space && problem.solver().factorization_count() > 1);
-        HamiltonIteration iteration(source, problem.map_step(), problem.coefficient_step(), how);
+        problem.map_step().set_map(map);
+        HamiltonIteration iteration(problem.map_step(), problem.coefficient_step(), how);
         // Only a run from nothing needs a space to begin with, and its basis is costly.
-        iteration.run(state, map,
-                      state.space
-                          ? nullptr
-                          : problem.starting_space(PolynomialSpace::largest_degree(source.operators.sample_count())));
-        map = iteration.map();
+        iteration.run(state, state.space ? nullptr
+                                         : problem.starting_space(
+                                               PolynomialSpace::largest_degree(source.operators.sample_count())));
+        map = problem.map_step().map();
         step = iteration.last_step();
         converged = iteration.converged();
         // A run that goes on begins with where the last one ended.
@@ -282,7 +288,7 @@ struct ExtremalSolver::Implementation {
     SolutionBounds bounds_of(const Eigen::VectorXcd& of, const CoefficientStep::Result& with,
                              const Distortion& distortion, const ReichStrebel& integrals) const {
         return solution_bounds({source, boundary, problem.chart(), *state.space, with.direction, with.phi, with.k, of,
-                                distortion, integrals, paths, options.outer_loop, options.turns},
+                                distortion, integrals, paths, wanted.outer_loop, wanted.turns},
                                options.sharpen);
     }
 
@@ -322,7 +328,7 @@ struct ExtremalSolver::Implementation {
         const int folds = folded_samples(beltrami_coefficient(source.operators, map));
         warnings.push_back("from the start that was given the iteration ended with " + std::to_string(folds) +
                            " flipped faces; the map comes from the " +
-                           (options.waypoints || !options.turns.empty() ? "start without it" : "harmonic start") +
+                           (wanted.waypoints || !wanted.turns.empty() ? "start without it" : "harmonic start") +
                            ", whose homotopy class may be another");
         options.start.reset();
         state = {};
@@ -336,18 +342,22 @@ struct ExtremalSolver::Implementation {
     ExtremalMap record() const;
 };
 
-ExtremalSolver::ExtremalSolver(const Surface& source, const BoundaryCondition& boundary,
-                               const ExtremalOptions& options) {
-    PreparedProblem prepared = prepare(source, boundary, options);
+ExtremalSolver::ExtremalSolver(const Surface& source, const Constraints& constraints, const ExtremalOptions& options) {
+    if (!constraints.all_prescribed()) {
+        sliding_ = std::make_unique<SlidingSolver>(source, constraints, options);
+        return;
+    }
+    PreparedProblem prepared = prepare(source, constraints, options);
+    const Correspondence& wanted = constraints.correspondence;
     ProblemPieces cut;
     // A class that is asked for is one of the whole.
-    if (options.turns.empty() && !options.waypoints) cut = pieces_of(prepared.surface_of(source), boundary);
+    if (wanted.turns.empty() && !wanted.waypoints) cut = pieces_of(prepared.surface_of(source), constraints.prescribed);
     if (cut.pieces.empty()) {
-        implementation_ = std::make_unique<Implementation>(source, boundary, options, std::move(prepared));
+        implementation_ = std::make_unique<Implementation>(source, constraints, options, std::move(prepared));
         if (!cut.obstacle.empty()) implementation_->warnings.push_back(cut.obstacle);
     } else {
         pieces_ =
-            std::make_unique<PiecewiseSolver>(source, boundary, options, std::move(prepared), std::move(cut.pieces));
+            std::make_unique<PiecewiseSolver>(source, constraints, options, std::move(prepared), std::move(cut.pieces));
     }
 }
 ExtremalSolver::~ExtremalSolver() = default;
@@ -356,13 +366,14 @@ ExtremalSolver::ExtremalSolver(ExtremalSolver&&) noexcept = default;
 ExtremalSolver::Update ExtremalSolver::update(const std::vector<Complex>& images, int max_iterations) {
     if (max_iterations < 1) throw Error(Cause::bad_option, "an update needs at least one iteration");
     if (pieces_) return pieces_->update(images, max_iterations);
+    if (sliding_) return sliding_->update(images, max_iterations);
     Implementation& m = *implementation_;
     if (images.size() != m.boundary.images.size())
         throw Error(Cause::bad_boundary, "there are " + std::to_string(images.size()) + " new images for " +
                                              std::to_string(m.boundary.images.size()) + " prescribed vertices");
     BoundaryCondition moved = m.boundary;
     moved.images = images;
-    require_feasible(m.source, moved, m.options.outer_loop);
+    require_feasible(m.source, moved, m.wanted.outer_loop);
     m.boundary = std::move(moved);
     m.problem.map_step().prescribe(prescribed_values(m.boundary, m.source), line_directions(m.boundary, m.source));
     HamiltonIteration::Options how = iteration_options(m.options);
@@ -376,6 +387,7 @@ ExtremalSolver::Update ExtremalSolver::update(const std::vector<Complex>& images
 
 ExtremalMap ExtremalSolver::solve() {
     if (pieces_) return pieces_->solve();
+    if (sliding_) return sliding_->solve();
     Implementation& m = *implementation_;
     m.history.clear();
     m.earlier_iterations = 0;
@@ -423,6 +435,7 @@ ExtremalMap ExtremalSolver::Implementation::record() const {
     ExtremalMap result;
     result.map = map;
     result.harmonic = problem.harmonic();
+    result.start = start;
     result.history = history;
     result.warnings = warnings;
     result.iterations = earlier_iterations + static_cast<int>(history.size()) - 1;
@@ -432,12 +445,12 @@ ExtremalMap ExtremalSolver::Implementation::record() const {
     result.termination = converged ? Termination::converged : Termination::iteration_limit;
     result.split = prepared.split;
     if (!paths.empty()) {
-        result.homotopy = homotopy_class(source, paths, map, options.outer_loop);
-        if (!options.turns.empty())
+        result.homotopy = homotopy_class(source, paths, map, wanted.outer_loop);
+        if (!wanted.turns.empty())
             for (const HoleTurns& hole : result.homotopy.holes)
-                if (hole.turns != options.turns[hole.loop])
+                if (hole.turns != wanted.turns[hole.loop])
                     result.warnings.push_back("the hole of loop " + std::to_string(hole.loop) +
-                                              " has lost its turns: " + std::to_string(options.turns[hole.loop]) +
+                                              " has lost its turns: " + std::to_string(wanted.turns[hole.loop]) +
                                               " were wanted, the map has " + std::to_string(hole.turns) +
                                               "; the mesh is too coarse to hold them");
     }
@@ -447,8 +460,7 @@ ExtremalMap ExtremalSolver::Implementation::record() const {
         result.boundary_residual =
             std::max(result.boundary_residual, std::abs(map[boundary.vertices[i]] - boundary.images[i]));
 
-    result.K_max =
-        result.distortion.flipped.empty() ? dilatation(result.distortion.max) : std::numeric_limits<double>::infinity();
+    result.K_max = largest_dilatation(result.distortion);
     const SolutionBounds bounds = best_bounds(result.distortion);
     result.K = std::min(bounds.K, result.K_max);
     result.k = (result.K - 1) / (result.K + 1);

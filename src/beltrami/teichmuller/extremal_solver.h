@@ -7,6 +7,7 @@
 namespace beltrami {
 
 class PiecewiseSolver;
+class SlidingSolver;
 
 /// The extremal map of one source for boundary values that change: handles are dragged, the boundary is moved, and the
 /// map follows. The system's analysis, the chart and the space of differentials are kept; each new solve starts from
@@ -20,8 +21,8 @@ class ExtremalSolver {
   public:
     /// @param source  kept by reference
     /// @throw Error as extremal_map
-    ExtremalSolver(const Surface& source, const BoundaryCondition& boundary, const ExtremalOptions& options = {});
-    ExtremalSolver(Surface&&, const BoundaryCondition&, const ExtremalOptions& = {}) = delete;
+    ExtremalSolver(const Surface& source, const Constraints& constraints, const ExtremalOptions& options = {});
+    ExtremalSolver(Surface&&, const Constraints&, const ExtremalOptions& = {}) = delete;
     ~ExtremalSolver();
     ExtremalSolver(ExtremalSolver&&) noexcept;
 
@@ -47,6 +48,7 @@ class ExtremalSolver {
     struct Implementation;
     std::unique_ptr<Implementation> implementation_;
     std::unique_ptr<PiecewiseSolver> pieces_;  ///< instead, where pinned curves cut the surface
+    std::unique_ptr<SlidingSolver> sliding_;   ///< instead, where boundaries slide
 };
 
 }  // namespace beltrami

@@ -59,9 +59,8 @@ Eigen::VectorXcd teichmueller_coefficient(double k, const Eigen::VectorXcd& phi)
     return nu;
 }
 
-HamiltonIteration::HamiltonIteration(const Surface& source, MapStep& map_step, CoefficientStep& coefficient_step,
-                                     Options options)
-    : source_(source), map_step_(map_step), coefficient_step_(coefficient_step), options_(std::move(options)) {}
+HamiltonIteration::HamiltonIteration(MapStep& map_step, CoefficientStep& coefficient_step, Options options)
+    : map_step_(map_step), coefficient_step_(coefficient_step), options_(std::move(options)) {}
 
 /// Takes larger spaces while they raise k noticeably, or instead of a preliminary one; returns whether any did.
 bool HamiltonIteration::grow(HamiltonState& state, const Eigen::VectorXcd& mu) {
@@ -86,9 +85,7 @@ bool HamiltonIteration::grow(HamiltonState& state, const Eigen::VectorXcd& mu) {
     return grown;
 }
 
-void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
-                            std::unique_ptr<DifferentialSpace> smallest) {
-    map_ = start;
+void HamiltonIteration::run(HamiltonState& state, std::unique_ptr<DifferentialSpace> smallest) {
     iterations_ = 0;
     converged_ = false;
     history_.clear();
@@ -96,7 +93,7 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
     if (!state.space) {
         state.space = std::move(smallest);
         coefficient_step_.set_space(*state.space);
-        const Eigen::VectorXcd mu = beltrami_coefficient(source_.operators, map_);
+        const Eigen::VectorXcd mu = beltrami_coefficient(map_step_.derivatives());
         step_ = coefficient_step_.solve(mu, {}, options_.tolerance * options_.step_below_change);
         if (!state.space->preliminary()) grow(state, mu);
         state.direction = step_.direction;
@@ -110,22 +107,22 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
     double change = 1, least_change = 1;
     int since_least = 0, quiet = 0;
     CoefficientStep::Result best;  // what is returned if nothing settles
-    Eigen::VectorXcd best_map;
+    std::any best_map;
     CoefficientStep::Result fallback;  // what had settled in a smaller space
-    Eigen::VectorXcd fallback_map;
+    std::any fallback_map;
     int grown_at = 0;
     double last_change = 1, relaxation = 1;
     bool accelerated = false;
     while (iterations_ < options_.max_iterations) {
         const Eigen::VectorXcd nu = coefficient_step_.coefficient(state.k, coefficient_step_.values(state.direction));
-        map_step_.solve(nu, map_, kSolveBelowChange * std::min(change, 0.1));
+        map_step_.solve(nu, kSolveBelowChange * std::min(change, 0.1));
         ++iterations_;
-        const Eigen::VectorXcd mu = beltrami_coefficient(source_.operators, map_);
+        const Eigen::VectorXcd mu = beltrami_coefficient(map_step_.derivatives());
         step_ = coefficient_step_.solve(mu, state.direction,
                                         options_.step_below_change * std::min(change, kLargeChange), kNewtonSteps);
         if (step_.merit > best.merit) {
             best = step_;
-            best_map = map_;
+            best_map = map_step_.snapshot();
         }
         change = (step_.direction - state.direction).norm();
         const double k_change = std::abs(step_.k - state.k);
@@ -156,7 +153,7 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
             (state.space->preliminary() && iterations_ == kPreliminaryIterations)) {
             if (settled) {
                 fallback = step_;
-                fallback_map = map_;
+                fallback_map = map_step_.snapshot();
                 grown_at = iterations_;
             }
             if (grow(state, mu)) {
@@ -200,12 +197,12 @@ void HamiltonIteration::run(HamiltonState& state, const Eigen::VectorXcd& start,
     // A larger space in which nothing settles, or which makes the bound worse, was too large for the mesh.
     if (grown_at > 0 && (!converged_ || step_.merit < (1 - kWorse) * fallback.merit)) {
         converged_ = true;
-        map_ = std::move(fallback_map);
+        map_step_.restore(fallback_map);
         step_ = std::move(fallback);
         step_.direction.conservativeResizeLike(Eigen::VectorXcd::Zero(state.space->size()));
     } else if (!converged_ && best.merit > step_.merit) {
         const Eigen::Index size = state.space->size();
-        map_ = std::move(best_map);
+        map_step_.restore(best_map);
         step_ = std::move(best);
         step_.direction.conservativeResizeLike(Eigen::VectorXcd::Zero(size));
     }

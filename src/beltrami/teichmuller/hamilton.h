@@ -1,9 +1,9 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <vector>
 
+#include <beltrami/base/iteration_options.h>
 #include <beltrami/coefficient/coefficient_step.h>
 #include <beltrami/solve/map_step.h>
 
@@ -37,19 +37,19 @@ class HamiltonIteration {
         /// When a larger space is tried, besides at a start from nothing: with the first map that comes from another
         /// problem's state, and once all has settled.
         bool grow_first = true, grow_last = true;
-        std::function<bool(int iteration, double k)> progress;
+        Progress progress;
     };
 
     /// All are kept by reference.
-    HamiltonIteration(const Surface& source, MapStep& map_step, CoefficientStep& coefficient_step, Options options);
+    HamiltonIteration(MapStep& map_step, CoefficientStep& coefficient_step, Options options);
 
-    /// Runs from @p state, or where that knows nothing from the c-step of @p start in @p smallest, a first space.
-    /// state.space is the last space used; last_step() belongs to it.
+    /// Runs from @p state, or where that knows nothing from the c-step of the map as it stands in @p smallest, a first
+    /// space. The map of the f-step is then the one found; state.space is the last space used; last_step() belongs to
+    /// it.
     /// @throw Error cancelled, not_solved
-    void run(HamiltonState& state, const Eigen::VectorXcd& start, std::unique_ptr<DifferentialSpace> smallest);
+    void run(HamiltonState& state, std::unique_ptr<DifferentialSpace> smallest);
 
-    const Eigen::VectorXcd& map() const { return map_; }
-    /// The c-step of map().
+    /// The c-step of the map found.
     const CoefficientStep::Result& last_step() const { return step_; }
     const std::vector<Iteration>& history() const { return history_; }
     int iterations() const { return iterations_; }
@@ -58,11 +58,9 @@ class HamiltonIteration {
   private:
     bool grow(HamiltonState& state, const Eigen::VectorXcd& mu);
 
-    const Surface& source_;
     MapStep& map_step_;
     CoefficientStep& coefficient_step_;
     Options options_;
-    Eigen::VectorXcd map_;
     CoefficientStep::Result step_;
     std::vector<Iteration> history_;
     int iterations_ = 0;

@@ -82,20 +82,26 @@ void LeastMaximumOptions::validate() const {
     extremal.validate();
 }
 
-LeastMaximumMap least_maximum_map(const Surface& source, const BoundaryCondition& boundary,
+LeastMaximumMap least_maximum_map(const Surface& source, const Constraints& constraints,
                                   const LeastMaximumOptions& options) {
     options.validate();
     require_open_component(source);
+    validate(constraints, source);
+    const BoundaryCondition& boundary = constraints.prescribed;
+    const Correspondence& wanted = constraints.correspondence;
     validate(boundary, source);
+    if (!constraints.all_prescribed())
+        throw Error(Cause::bad_option, "the map of least maximum has prescribed or free boundary values",
+                    "leave out what slides");
     LeastMaximumMap result;
     Eigen::VectorXcd start;
     if (unprescribed_boundary(boundary, source).empty()) {
-        result.extremal = extremal_map(source, boundary, options.extremal);
+        result.extremal = extremal_map(source, constraints, options.extremal);
         start = result.extremal->map;
         result.split = result.extremal->split;
         result.factorizations = result.extremal->factorizations;
     } else {
-        if (source.topology.genus == 0) require_feasible(source, boundary, options.extremal.outer_loop);
+        if (source.topology.genus == 0) require_feasible(source, boundary, wanted.outer_loop);
         result.split = split_of(source, boundary, options);
     }
     std::optional<Surface> split_surface;
@@ -129,12 +135,11 @@ LeastMaximumMap least_maximum_map(const Surface& source, const BoundaryCondition
                                              started.outer_loop);
             for (std::size_t i = 0; i < started.holes.size(); ++i) {
                 const HoleTurns& hole = result.homotopy.holes[i];
-                const int wanted =
-                    options.extremal.turns.empty() ? started.holes[i].turns : options.extremal.turns[hole.loop];
-                if (hole.turns != wanted)
+                const int turns = wanted.turns.empty() ? started.holes[i].turns : wanted.turns[hole.loop];
+                if (hole.turns != turns)
                     throw Error(Cause::not_solved,
                                 "the map of least maximum has " + std::to_string(hole.turns) + " turns against loop " +
-                                    std::to_string(hole.loop) + " instead of " + std::to_string(wanted) +
+                                    std::to_string(hole.loop) + " instead of " + std::to_string(turns) +
                                     ": the start was folded too much to keep its class",
                                 "refine the mesh, or leave out --minimize max");
             }

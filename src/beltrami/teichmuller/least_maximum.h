@@ -14,7 +14,7 @@ struct LeastMaximumOptions {
     double power = 128;         ///< p of the last stage, at least 1
     int max_iterations = 1000;  ///< Newton steps of all stages
     double tolerance = 1e-6;    ///< see FoldFreeOptions
-    ExtremalOptions extremal;   ///< of the extremal map from which to start; its outer loop, turns and split apply
+    ExtremalOptions extremal;   ///< of the extremal map from which to start; its split applies
     /// Called once per Newton step with its number and the energy; returning false cancels (Error cancelled).
     std::function<bool(int iteration, double energy)> progress;
 
@@ -57,7 +57,7 @@ struct LeastMaximumMap {
 /// as the mesh is refined (docs/extremal-maps.md).
 /// @pre one component with a boundary; genus 0 where the whole boundary is prescribed
 /// @throw Error bad_mesh, bad_boundary, not_solved, cancelled, bad_option
-LeastMaximumMap least_maximum_map(const Surface& source, const BoundaryCondition& boundary,
+LeastMaximumMap least_maximum_map(const Surface& source, const Constraints& constraints,
                                   const LeastMaximumOptions& options = {});
 
 }  // namespace beltrami

@@ -11,11 +11,11 @@
 
 namespace beltrami {
 
-PiecewiseSolver::PiecewiseSolver(const Surface& source, const BoundaryCondition& boundary,
-                                 const ExtremalOptions& options, PreparedProblem prepared,
-                                 std::vector<ProblemPiece> pieces)
+PiecewiseSolver::PiecewiseSolver(const Surface& source, const Constraints& constraints, const ExtremalOptions& options,
+                                 PreparedProblem prepared, std::vector<ProblemPiece> pieces)
     : options_(options),
-      boundary_(boundary),
+      boundary_(constraints.prescribed),
+      outer_loop_(constraints.correspondence.outer_loop),
       prepared_(std::move(prepared)),
       source_(prepared_.surface_of(source)),
       pieces_(std::move(pieces)) {
@@ -23,25 +23,26 @@ PiecewiseSolver::PiecewiseSolver(const Surface& source, const BoundaryCondition&
     if (start && prepared_.split) start = with_parents_means(*start, prepared_.split->parents);
     for (const ProblemPiece& piece : pieces_) {
         ExtremalOptions own = options_;
-        own.outer_loop = piece.outer_loop;
+        Constraints constraints_of_piece(piece.boundary);
+        constraints_of_piece.correspondence.outer_loop = piece.outer_loop;
         own.split_prescribed = false;  // done for the whole
         if (start) own.start = (*start)(piece.vertices);
         if (options_.progress)
             own.progress = [this](int iteration, double k) {
                 return options_.progress(iterations_before_ + iteration, k);
             };
-        solvers_.emplace_back(piece.surface, piece.boundary, own);
+        solvers_.emplace_back(piece.surface, constraints_of_piece, own);
     }
     if (source_.topology.boundary_loops.size() > 1) {
         Eigen::VectorXcd places;
-        if (source_.in_plane() && options_.outer_loop == 0) {
+        if (source_.in_plane() && outer_loop_ == 0) {
             places = planar_coordinates(source_.mesh);
         } else {
-            const Chart chart = domain_chart(source_, options_.outer_loop);
+            const Chart chart = domain_chart(source_, outer_loop_);
             places = chart.vertices;
             chart_factorizations_ = chart.factorizations;
         }
-        paths_ = loop_paths(source_, places, options_.outer_loop);
+        paths_ = loop_paths(source_, places, outer_loop_);
     }
     map_ = Eigen::VectorXcd::Zero(source_.mesh.vertex_count());
 }
@@ -57,7 +58,7 @@ ExtremalSolver::Update PiecewiseSolver::update(const std::vector<Complex>& image
                                              std::to_string(boundary_.images.size()) + " prescribed vertices");
     BoundaryCondition moved = boundary_;
     moved.images = images;
-    require_feasible(source_, moved, options_.outer_loop);
+    require_feasible(source_, moved, outer_loop_);
     std::vector<std::vector<Complex>> own(pieces_.size());
     for (std::size_t p = 0; p < pieces_.size(); ++p) {
         for (const int pin : pieces_[p].pins) own[p].push_back(images[pin]);
@@ -140,12 +141,11 @@ void PiecewiseSolver::merge(std::vector<ExtremalMap>& parts, ExtremalMap& whole)
     whole.corners = find_corners(source_, boundary_);
     whole.history = std::move(parts[decisive].history);
     whole.distortion = distortion(operators, whole.map);
-    whole.K_max =
-        whole.distortion.flipped.empty() ? dilatation(whole.distortion.max) : std::numeric_limits<double>::infinity();
+    whole.K_max = largest_dilatation(whole.distortion);
     for (std::size_t i = 0; i < boundary_.vertices.size(); ++i)
         whole.boundary_residual =
             std::max(whole.boundary_residual, std::abs(whole.map[boundary_.vertices[i]] - boundary_.images[i]));
-    if (!paths_.empty()) whole.homotopy = homotopy_class(source_, paths_, whole.map, options_.outer_loop);
+    if (!paths_.empty()) whole.homotopy = homotopy_class(source_, paths_, whole.map, outer_loop_);
     merge_bounds(parts, whole);
     if (whole.termination == Termination::converged && whole.sharpest && corner_decides(*whole.sharpest, whole.K))
         whole.termination = Termination::not_teichmuller;

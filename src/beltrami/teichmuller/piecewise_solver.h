@@ -11,7 +11,7 @@ class PiecewiseSolver {
   public:
     /// @param source kept by reference
     /// @param pieces of the prepared surface, at least one
-    PiecewiseSolver(const Surface& source, const BoundaryCondition& boundary, const ExtremalOptions& options,
+    PiecewiseSolver(const Surface& source, const Constraints& constraints, const ExtremalOptions& options,
                     PreparedProblem prepared, std::vector<ProblemPiece> pieces);
     PiecewiseSolver(const PiecewiseSolver&) = delete;
 
@@ -26,6 +26,7 @@ class PiecewiseSolver {
 
     ExtremalOptions options_;
     BoundaryCondition boundary_;
+    int outer_loop_;
     PreparedProblem prepared_;
     const Surface& source_;
     std::vector<ProblemPiece> pieces_;

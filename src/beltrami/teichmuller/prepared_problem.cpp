@@ -18,18 +18,16 @@ PreparedProblem prepared(SplitProblem split) {
     return result;
 }
 
-PreparedProblem prepare(const Surface& source, const BoundaryCondition& boundary, const ExtremalOptions& options) {
+PreparedProblem prepare(const Surface& source, const Constraints& constraints, const ExtremalOptions& options) {
     options.validate();
     require_genus_zero(source);
+    validate(constraints, source);
+    const BoundaryCondition& boundary = constraints.prescribed;
     validate(boundary, source);
     require_whole_boundary(boundary, source);
-    require_feasible(source, boundary, options.outer_loop);
-    const std::size_t loops = source.topology.boundary_loops.size();
-    if (!options.turns.empty() && options.turns.size() != loops)
-        throw Error(Cause::bad_option,
-                    "turns are given for " + std::to_string(options.turns.size()) +
-                        " boundary loops, the surface has " + std::to_string(loops),
-                    "give one number per loop, 0 for the outer one");
+    require_feasible(source, boundary, constraints.correspondence.outer_loop);
+    if (options.start && constraints.correspondence.waypoints)
+        throw Error(Cause::bad_option, "waypoints fix the homotopy class: give no start with them");
     if (options.start && options.start->size() != source.mesh.vertex_count())
         throw Error(Cause::bad_option, "the start has " + std::to_string(options.start->size()) + " values for " +
                                            std::to_string(source.mesh.vertex_count()) + " vertices");

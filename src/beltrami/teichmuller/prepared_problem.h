@@ -2,8 +2,9 @@
 
 #include <string>
 
+#include <beltrami/constraints/constraints.h>
 #include <beltrami/constraints/prescribed_split.h>
-#include <beltrami/teichmuller/extremal_map.h>
+#include <beltrami/teichmuller/extremal_options.h>
 
 namespace beltrami {
 
@@ -25,6 +26,6 @@ PreparedProblem prepared(SplitProblem split);
 
 /// Examines an extremal problem with prescribed boundary values and splits it, where the options ask for it.
 /// @throw Error bad_mesh, bad_boundary, bad_option as extremal_map
-PreparedProblem prepare(const Surface& source, const BoundaryCondition& boundary, const ExtremalOptions& options);
+PreparedProblem prepare(const Surface& source, const Constraints& constraints, const ExtremalOptions& options);
 
 }  // namespace beltrami

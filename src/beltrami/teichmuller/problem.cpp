@@ -80,9 +80,10 @@ ExtremalProblem::ExtremalProblem(const Surface& source, const BoundaryCondition&
     : source_(source),
       boundary_(boundary),
       solver_(source, freedoms(boundary, source), expected_factorizations),
-      map_step_(solver_) {
+      map_step_(source, solver_) {
     map_step_.prescribe(prescribed_values(boundary, source), line_directions(boundary, source));
-    map_step_.solve(Eigen::VectorXcd::Zero(source.operators.sample_count()), harmonic_, 0);
+    map_step_.solve(Eigen::VectorXcd::Zero(source.operators.sample_count()), 0);
+    harmonic_ = map_step_.map();
 }
 
 void ExtremalProblem::set_chart(Chart chart) {

@@ -9,6 +9,7 @@
 #include <beltrami/base/error.h>
 #include <beltrami/generate/round_domains.h>
 #include <beltrami/targets/target_mesh.h>
+#include <beltrami/teichmuller/extremal_map.h>
 
 #include "support/meshes.h"
 
@@ -83,7 +84,7 @@ TEST(FittingGrid, RefusesWhatDoesNotFit) {
 TEST(ReachedCorners, TheImageHasTheCornersOfItsTarget) {
     const Surface round(disk(12));
     const TargetDomain square = polygon({0, 1, {1, 1}, {0, 1}});
-    ExtremalMapOnto onto = extremal_map(round, square);
+    ExtremalMap onto = extremal_map(round, square);
     const Surface mapped = onto.split ? surface_of(onto.split->mesh, onto.split->metric) : round;
     const auto image_area = [&](const Eigen::VectorXcd& map) {
         double area = 0;

@@ -19,7 +19,7 @@ using Projection = TMapSchemeOptions::Projection;
 struct Example5 {
     Surface source{disk_with_holes({{0, 0.5, 0.1}, {-0.4, -0.3, 0.1}, {0.4, -0.3, 0.1}}, 0.12)};
     TargetDomain target = circles_target({{0, 0.5, 0.2}, {-0.4, -0.3, 0.2}, {0.4, -0.3, 0.2}});
-    OntoOptions loops;
+    Correspondence loops;
     Example5() { loops.loops = {{0, 0}, {1, 1}, {2, 2}, {3, 3}}; }
 };
 

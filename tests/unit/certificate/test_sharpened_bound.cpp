@@ -240,9 +240,9 @@ TEST(SharpenedBound, OfExtremalMapsOfLargeDilatation) {
     const auto check = [](int turns, double stretch, double K_error, double lower_error) {
         const Turned map(0.05, turns, stretch);
         const Surface surface(annulus(0.05, 1, 120, 66));
-        ExtremalOptions options;
-        options.turns = {0, turns};
-        const ExtremalMap found = extremal_map(surface, test::boundary_values(surface, map), options);
+        Constraints constraints(test::boundary_values(surface, map));
+        constraints.correspondence.turns = {0, turns};
+        const ExtremalMap found = extremal_map(surface, constraints);
         EXPECT_NEAR(found.K / map.K(), 1, K_error) << map.K();
         EXPECT_GT(found.K_lower / map.K(), 1 - lower_error) << map.K();
         EXPECT_LE(found.K_lower, std::min(found.K, map.K()));

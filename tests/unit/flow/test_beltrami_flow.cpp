@@ -14,10 +14,10 @@ namespace {
 using test::circles_target;
 using test::disk_with_holes;
 
-OntoOptions loops_in_order(int loops) {
-    OntoOptions options;
-    for (int l = 0; l < loops; ++l) options.loops.push_back({l, l});
-    return options;
+Correspondence loops_in_order(int loops) {
+    Correspondence wanted;
+    for (int l = 0; l < loops; ++l) wanted.loops.push_back({l, l});
+    return wanted;
 }
 
 /// μ of the affine stretch x + iy → ax + iy in every triangle.
@@ -39,7 +39,7 @@ std::vector<Mark> corners_marked(const Surface& source, double a, double b) {
 TEST(BeltramiFlow, FindsTheAffineMapOfARectangle) {
     const Surface source(polygon_domain({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {}, {.edge_length = 0.1}));
     const double b = 1.7;
-    OntoOptions start;
+    Correspondence start;
     start.marks = corners_marked(source, 1, b);
     const TargetDomain target = target_domain(TargetCurve::polygon({{0, 0}, {b, 0}, {b, 1}, {0, 1}}));
     const FlowMap result = beltrami_flow(source, target, constant(source, (b - 1) / (b + 1)), {}, start);
@@ -55,7 +55,7 @@ TEST(BeltramiFlow, FindsTheAffineMapOfARectangle) {
 TEST(BeltramiFlow, SaysThatTheCoefficientBelongsToAnotherRectangle) {
     const Surface source(polygon_domain({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {}, {.edge_length = 0.1}));
     const double b = 1.7;
-    OntoOptions start;
+    Correspondence start;
     start.marks = corners_marked(source, 1, b);
     const TargetDomain target = target_domain(TargetCurve::polygon({{0, 0}, {b, 0}, {b, 1}, {0, 1}}));
     const FlowMap result = beltrami_flow(source, target, constant(source, 0), {}, start);
@@ -114,9 +114,9 @@ TEST(BeltramiFlow, TellsRingsOfOtherModuliAtAnySize) {
 TEST(BeltramiFlow, ReturnsToAMapFromItsOwnCoefficient) {
     const Surface source(disk_with_holes({{-0.4, 0.1, 0.2}, {0.35, 0, 0.25}}, 0.12));
     const TargetDomain target = circles_target({{-0.5, -0.2, 0.15}, {0.3, 0.3, 0.3}});
-    OntoOptions turned = loops_in_order(3);
+    FlowStartOptions turned;
     turned.start_turns = {0.2, 0.4, -0.3};
-    const Eigen::VectorXcd given = flow_start(source, target, turned).map;
+    const Eigen::VectorXcd given = flow_start(source, target, loops_in_order(3), turned).map;
     const Eigen::VectorXcd mu = beltrami_coefficient(source.operators, given);
     ASSERT_LT(mu.cwiseAbs().maxCoeff(), 1);
     for (const double step : {1.0, 0.5}) {

@@ -278,11 +278,12 @@ TEST(SlidingMapStep, SlidesToTheConformalMapBesideAPrescribedLoop) {
     const int line = inner_vertex(surface, 17);
     prescribed.pin_to_line(line, z[line], Complex(1, 1));
     SlidingBoundary boundary(surface, {loop}, prescribed);
-    SlidingMapStep step(surface, boundary, 8);
-    Eigen::VectorXcd map = z;
-    boundary.place(map);
+    Eigen::VectorXcd start = z;
+    boundary.place(start);
+    SlidingMapStep step(surface, boundary, start, 8);
     const Eigen::VectorXcd nu = Eigen::VectorXcd::Zero(surface.operators.sample_count());
-    for (int i = 0; i < 12; ++i) step.solve(nu, map, 1e-11);
+    for (int i = 0; i < 12; ++i) step.solve(nu, 1e-11);
+    const Eigen::VectorXcd& map = step.map();
     EXPECT_LT(step.movement(), 1e-9);
     EXPECT_LT((map - z).cwiseAbs().maxCoeff(), 1e-8);
     for (const int v : surface.topology.boundary_loops[0]) EXPECT_EQ(map[v], z[v]);

@@ -6,7 +6,7 @@
 #include <beltrami/base/error.h>
 #include <beltrami/generate/sphere.h>
 #include <beltrami/meshing/planar_domains.h>
-#include <beltrami/targets/marks.h>
+#include <beltrami/targets/correspondence.h>
 #include <beltrami/targets/target_domain.h>
 
 #include "support/meshes.h"
@@ -125,12 +125,12 @@ TEST_F(MarksTest, GoToNearestPointsOfTheNearestCurve) {
     std::vector<Mark> marks;
     for (std::size_t i = 0; i < points.size(); ++i) marks.push_back(nearest_mark(domain, vertices[i], points[i]));
     EXPECT_EQ(marks[0].vertex, at(0, 3));
-    EXPECT_EQ(marks[0].curve, 0);
-    EXPECT_NEAR(marks[0].parameter, 1, 1e-15);
-    EXPECT_EQ(marks[1].curve, 1);
-    EXPECT_NEAR(std::abs(domain.curve(1).point(marks[1].parameter) - Complex(0.5, 0)), 0, 1e-15);
-    EXPECT_NEAR(marks[2].parameter, 6, 1e-15);
-    EXPECT_NEAR(marks[3].parameter, 10, 1e-15);
+    EXPECT_EQ(on_curve(marks[0]).curve, 0);
+    EXPECT_NEAR(on_curve(marks[0]).parameter, 1, 1e-15);
+    EXPECT_EQ(on_curve(marks[1]).curve, 1);
+    EXPECT_NEAR(std::abs(domain.curve(1).point(on_curve(marks[1]).parameter) - Complex(0.5, 0)), 0, 1e-15);
+    EXPECT_NEAR(on_curve(marks[2]).parameter, 6, 1e-15);
+    EXPECT_NEAR(on_curve(marks[3]).parameter, 10, 1e-15);
     EXPECT_NO_THROW(validate(marks, source, domain, partners));
     // Started anywhere on the loop, and with any two, the order is right.
     EXPECT_NO_THROW(validate({marks[3], marks[0]}, source, domain, partners));

@@ -17,7 +17,7 @@ TEST(Distance, OfTwoRingsIsHalfTheLogarithmOfTheirModuli) {
     EXPECT_LE(d.lower, d.distance);
     EXPECT_LE(d.distance, d.upper);
     EXPECT_TRUE(d.settled);
-    const Distance one_way = teichmueller_distance(a, b, {}, 0, false);
+    const Distance one_way = teichmueller_distance(a, b, {}, {}, 0, false);
     EXPECT_NEAR(one_way.distance, exact, 2e-3);
 }
 
@@ -31,10 +31,10 @@ TEST(Distance, OfAShapeToItsImageUnderASimilarityIsZero) {
 
 TEST(Distance, TakesMarksInOneDirectionOnly) {
     const Surface a(annulus(0.5, 1, 24)), b(annulus(0.3, 1, 24));
-    OntoOptions options;
-    options.loops = {{0, 0}, {1, 1}};
-    EXPECT_THROW(teichmueller_distance(a, b, options), Error);
-    EXPECT_NO_THROW(teichmueller_distance(a, b, options, 0, false));
+    Correspondence wanted;
+    wanted.loops = {{0, 0}, {1, 1}};
+    EXPECT_THROW(teichmueller_distance(a, b, wanted), Error);
+    EXPECT_NO_THROW(teichmueller_distance(a, b, wanted, {}, 0, false));
 }
 
 TEST(DistanceMatrix, NamesShapesThatAreNotAlike) {

@@ -141,9 +141,9 @@ TEST(LeastMaximum, HolesAndTurns) {
     options.edge_length = 0.07;
     const Surface surface(circle_domain({}, {{{0, 0}, 0.2}}, options));
     const BoundaryCondition boundary = test::boundary_values(surface, [](Complex z) { return z; });
-    LeastMaximumOptions how;
-    how.extremal.turns = {0, 1};
-    const LeastMaximumMap result = least_maximum_map(surface, boundary, how);
+    Constraints constraints(boundary);
+    constraints.correspondence.turns = {0, 1};
+    const LeastMaximumMap result = least_maximum_map(surface, constraints);
     ASSERT_TRUE(result.extremal);
     EXPECT_TRUE(result.fold_free);
     EXPECT_LT(result.distortion.max, result.start_max);

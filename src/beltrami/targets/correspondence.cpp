@@ -1,4 +1,4 @@
-#include <beltrami/targets/marks.h>
+#include <beltrami/targets/correspondence.h>
 
 #include <algorithm>
 #include <cmath>
@@ -65,6 +65,10 @@ void require_on_boundary(const std::vector<int>& vertices, const Surface& source
 
 }  // namespace
 
+const CurveParameter& on_curve(const Mark& mark) {
+    return std::get<CurveParameter>(mark.to);
+}
+
 void validate(const std::vector<Mark>& marks, const Surface& source, const TargetDomain& domain,
               const std::vector<int>& partners) {
     require_partners(source, domain, partners);
@@ -74,7 +78,8 @@ void validate(const std::vector<Mark>& marks, const Surface& source, const Targe
     require_on_boundary(vertices, source, places);
     for (const Mark& mark : marks) {
         const int partner = partners[places.loop[mark.vertex]];
-        if (mark.curve != partner || !std::isfinite(mark.parameter))
+        const CurveParameter* place = std::get_if<CurveParameter>(&mark.to);
+        if (!place || place->curve != partner || !std::isfinite(place->parameter))
             throw Error(Cause::bad_boundary,
                         "the mark of vertex " + std::to_string(mark.vertex) + " is not a place of " +
                             curve_name(partner) + ", the partner of its loop",
@@ -82,25 +87,27 @@ void validate(const std::vector<Mark>& marks, const Surface& source, const Targe
     }
     std::vector<Mark> sorted = marks;
     std::sort(sorted.begin(), sorted.end(), [&](const Mark& a, const Mark& b) {
-        return std::pair(a.curve, places.position[a.vertex]) < std::pair(b.curve, places.position[b.vertex]);
+        return std::pair(on_curve(a).curve, places.position[a.vertex]) <
+               std::pair(on_curve(b).curve, places.position[b.vertex]);
     });
     for (std::size_t first = 0; first < sorted.size();) {
         std::size_t last = first;
-        while (last < sorted.size() && sorted[last].curve == sorted[first].curve) ++last;
-        const TargetCurve& curve = domain.curve(sorted[first].curve);
+        const int on = on_curve(sorted[first]).curve;
+        while (last < sorted.size() && on_curve(sorted[last]).curve == on) ++last;
+        const TargetCurve& curve = domain.curve(on);
         double around = 0;
         for (std::size_t i = first; i < last && last - first > 1; ++i) {
             const Mark &here = sorted[i], &next = sorted[i + 1 < last ? i + 1 : first];
-            const double ahead = curve.ahead(here.parameter, next.parameter);
+            const double ahead = curve.ahead(on_curve(here).parameter, on_curve(next).parameter);
             if (std::min(ahead, curve.length() - ahead) <= 1e-12 * curve.length())
                 throw Error(Cause::bad_boundary,
                             "vertices " + std::to_string(here.vertex) + " and " + std::to_string(next.vertex) +
-                                " are marked with one place of " + curve_name(here.curve),
+                                " are marked with one place of " + curve_name(on),
                             "give different places", {here.vertex, next.vertex});
             around += ahead;
             if (around > 1.5 * curve.length())
                 throw Error(Cause::bad_boundary,
-                            "the marks on " + curve_name(here.curve) +
+                            "the marks on " + curve_name(on) +
                                 " follow each other in another order than their vertices along the boundary loop, up "
                                 "to vertex " +
                                 std::to_string(next.vertex),

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include <beltrami/teichmuller/sliding_start.h>
+#include <beltrami/starts/sliding_start.h>
 
 namespace beltrami {
 

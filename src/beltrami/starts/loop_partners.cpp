@@ -1,9 +1,11 @@
-#include <beltrami/teichmuller/loop_partners.h>
+#include <beltrami/starts/loop_partners.h>
 
 #include <algorithm>
 #include <string>
 
 #include <beltrami/base/error.h>
+#include <beltrami/charts/circle_matching.h>
+#include <beltrami/operators/distortion.h>
 
 namespace beltrami {
 
@@ -12,11 +14,11 @@ namespace {
 /// A moved boundary edge spans less (radians) of its circle.
 constexpr double kMostTurn = 2;
 
-/// The curves as options.loops have them.
-std::vector<int> given_curves(const OntoOptions& options, int loops) {
+/// The curves as wanted.loops has them.
+std::vector<int> given_curves(const Correspondence& wanted, int loops) {
     std::vector<char> taken(loops, 0);
     std::vector<int> given(loops, -1);
-    for (const auto& [loop, curve] : options.loops) {
+    for (const auto& [loop, curve] : wanted.loops) {
         if (loop < 0 || loop >= loops || curve < 0 || curve >= loops)
             throw Error(Cause::bad_option, "loops pair " + std::to_string(loop) + ":" + std::to_string(curve) +
                                                ", but there are only loops and curves 0 to " +
@@ -24,14 +26,14 @@ std::vector<int> given_curves(const OntoOptions& options, int loops) {
         if (given[loop] >= 0 || taken[curve])
             throw Error(Cause::bad_option,
                         "loops name loop " + std::to_string(loop) + " or curve " + std::to_string(curve) + " twice");
-        if ((loop == options.outer_loop) != (curve == 0))
+        if ((loop == wanted.outer_loop) != (curve == 0))
             throw Error(Cause::bad_option,
-                        "the outer loop " + std::to_string(options.outer_loop) + " must go to the outer curve 0",
+                        "the outer loop " + std::to_string(wanted.outer_loop) + " must go to the outer curve 0",
                         "name another outer loop");
         given[loop] = curve;
         taken[curve] = 1;
     }
-    given[options.outer_loop] = 0;
+    given[wanted.outer_loop] = 0;
     for (int l = 0; l < loops; ++l)
         if (given[l] < 0)
             throw Error(Cause::bad_option, "loops leave out boundary loop " + std::to_string(l),
@@ -44,12 +46,13 @@ std::vector<PlacePair> marked_places(const Surface& source, const CircleDomainCh
                                      const std::vector<Mark>& marks) {
     std::vector<PlacePair> places;
     for (const Mark& mark : marks) {
-        if (mark.vertex < 0 || mark.vertex >= source.mesh.vertex_count() || mark.curve < 0 ||
-            mark.curve >= target.domain().curve_count())
+        const CurveParameter* place = std::get_if<CurveParameter>(&mark.to);
+        if (mark.vertex < 0 || mark.vertex >= source.mesh.vertex_count() || !place || place->curve < 0 ||
+            place->curve >= target.domain().curve_count())
             continue;
-        const RoundHole circle = target.circle(mark.curve);
+        const RoundHole circle = target.circle(place->curve);
         places.push_back({chart.chart.vertices[mark.vertex],
-                          circle.centre + std::polar(circle.radius, target.angle(mark.curve, mark.parameter))});
+                          circle.centre + std::polar(circle.radius, target.angle(place->curve, place->parameter))});
     }
     return places;
 }
@@ -83,7 +86,7 @@ bool is_drawn(const Surface& source, const CircleDomainChart& chart, const LoopP
 }  // namespace
 
 LoopPartners loop_partners(const Surface& source, const CircleDomainChart& chart, const TargetModel& target,
-                           const OntoOptions& options) {
+                           const Correspondence& wanted) {
     const int loops = static_cast<int>(source.topology.boundary_loops.size());
     const int curves = target.domain().curve_count();
     if (loops != curves)
@@ -91,32 +94,32 @@ LoopPartners loop_partners(const Surface& source, const CircleDomainChart& chart
                     "the source has " + std::to_string(loops) + " boundary loops, the target " + std::to_string(curves),
                     "source and target must have the same number of holes");
     LoopPartners result;
-    std::vector<PlacePair> places = marked_places(source, chart, target, options.marks);
-    if (options.loops.empty()) {
+    std::vector<PlacePair> places = marked_places(source, chart, target, wanted.marks);
+    if (wanted.loops.empty()) {
         const CircleMatching matching =
-            match_circle_domains(chart.holes, target.holes(), {.by = options.match_by, .places = places});
+            match_circle_domains(chart.holes, target.holes(), {.by = wanted.match_by, .places = places});
         result.curves.assign(loops, 0);
         for (std::size_t h = 0; h < chart.holes.size(); ++h)
             result.curves[chart.holes[h].loop] = matching.partner[h] + 1;
     } else {
-        result.curves = given_curves(options, loops);
+        result.curves = given_curves(wanted, loops);
     }
-    if (options.waypoints) return turned(result, chart, target, options);
+    if (wanted.waypoints) return turned(result, chart, target, wanted);
     for (const RoundHole& hole : chart.holes)
         places.push_back(
             {hyperbolic_circle(hole).centre, hyperbolic_circle(target.circle(result.curves[hole.loop])).centre});
     move_domain(chart, best_move(places), result);
-    return is_drawn(source, chart, result) ? result : turned(result, chart, target, options);
+    return is_drawn(source, chart, result) ? result : turned(result, chart, target, wanted);
 }
 
 LoopPartners turned(const LoopPartners& partners, const CircleDomainChart& chart, const TargetModel& target,
-                    const OntoOptions& options) {
+                    const Correspondence& wanted) {
     std::vector<PlacePair> centres;
     for (const RoundHole& hole : chart.holes)
         centres.push_back({hole.centre, target.circle(partners.curves[hole.loop]).centre});
     LoopPartners result;
     result.curves = partners.curves;
-    move_domain(chart, options.marks.empty() ? best_rotation(centres) : DiskMoebius(), result);
+    move_domain(chart, wanted.marks.empty() ? best_rotation(centres) : DiskMoebius(), result);
     return result;
 }
 

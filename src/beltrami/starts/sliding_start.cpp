@@ -1,4 +1,4 @@
-#include <beltrami/teichmuller/sliding_start.h>
+#include <beltrami/starts/sliding_start.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,10 @@
 #include <string>
 
 #include <beltrami/base/error.h>
-#include <beltrami/teichmuller/loop_partners.h>
-#include <beltrami/teichmuller/untwisting.h>
+#include <beltrami/homotopy/continuation.h>
+#include <beltrami/operators/distortion.h>
+#include <beltrami/starts/loop_partners.h>
+#include <beltrami/starts/untwisting.h>
 
 namespace beltrami {
 
@@ -25,7 +27,7 @@ constexpr double kTwisted = 0.1;
 class LoopAngles {
   public:
     LoopAngles(const Surface& source, const LoopPartners& matched, const TargetModel& target,
-               const OntoOptions& options, int loop)
+               const std::vector<Mark>& marks, double ahead, int loop)
         : vertices_(source.topology.boundary_loops[loop]), sign_(matched.curves[loop] == 0 ? 1 : -1) {
         const RoundHole circle = matched.circles[loop];
         const std::size_t n = vertices_.size();
@@ -35,10 +37,9 @@ class LoopAngles {
             if (i == 0) turns_.push_back(sign_ * std::arg(z));
             turns_.push_back(turns_.back() + sign_ * std::arg(next / z));
         }
-        const double ahead = options.start_turns.empty() ? 0 : options.start_turns[loop];
         for (double& turn : turns_) turn += sign_ * ahead;
         held_.assign(n, 0);
-        place_marks(target, options, matched.curves[loop]);
+        place_marks(target, marks, matched.curves[loop]);
         turns_.pop_back();
     }
     /// Angles on the model's circle.
@@ -52,7 +53,7 @@ class LoopAngles {
     const std::vector<double>& mark_parameters() const { return parameters_; }
 
   private:
-    void place_marks(const TargetModel& target, const OntoOptions& options, int curve) {
+    void place_marks(const TargetModel& target, const std::vector<Mark>& wanted, int curve) {
         const int n = static_cast<int>(vertices_.size());
         parameters_.assign(n, 0);
         struct Placed {
@@ -60,13 +61,14 @@ class LoopAngles {
             double turn;
         };
         std::vector<Placed> marks;
-        for (const Mark& mark : options.marks) {
+        for (const Mark& mark : wanted) {
             const auto at = std::find(vertices_.begin(), vertices_.end(), mark.vertex);
             if (at == vertices_.end()) continue;
             const int position = static_cast<int>(at - vertices_.begin());
             held_[position] = 1;
-            parameters_[position] = mark.parameter;
-            marks.push_back({position, sign_ * target.angle(curve, mark.parameter)});
+            const double parameter = on_curve(mark).parameter;
+            parameters_[position] = parameter;
+            marks.push_back({position, sign_ * target.angle(curve, parameter)});
         }
         if (marks.empty()) return;
         std::sort(marks.begin(), marks.end(), [](const Placed& a, const Placed& b) { return a.position < b.position; });
@@ -109,12 +111,13 @@ struct Placement {
 };
 
 Placement place(const LoopPartners& matched, const Surface& source, const TargetModel& target,
-                const OntoOptions& options) {
+                const std::vector<Mark>& marks, const std::vector<double>& start_turns) {
     const auto& loops = source.topology.boundary_loops;
     Placement result;
     for (std::size_t l = 0; l < loops.size(); ++l) {
         const int curve = matched.curves[l];
-        const LoopAngles angles(source, matched, target, options, static_cast<int>(l));
+        const LoopAngles angles(source, matched, target, marks, start_turns.empty() ? 0 : start_turns[l],
+                                static_cast<int>(l));
         const RoundHole circle = target.circle(curve);
         const std::vector<double> at = angles.angles();
         SlidingLoop sliding{static_cast<int>(l), target.domain().curve(curve), {}, angles.held()};
@@ -146,13 +149,12 @@ SlidingStart started(const LoopPartners& matched, const Surface& source, const T
     return result;
 }
 
-/// Options whose loops start turned further, if any is to be turned noticeably.
-std::optional<OntoOptions> turned_further(const OntoOptions& options, const std::vector<double>& turns) {
+/// Start turns with more added, if any loop is to be turned noticeably.
+std::optional<std::vector<double>> turned_further(std::vector<double> start_turns, const std::vector<double>& turns) {
     if (std::none_of(turns.begin(), turns.end(), [](double turn) { return std::abs(turn) > kTwisted; })) return {};
-    OntoOptions result = options;
-    result.start_turns.resize(turns.size(), 0);
-    for (std::size_t l = 0; l < turns.size(); ++l) result.start_turns[l] += turns[l];
-    return result;
+    start_turns.resize(turns.size(), 0);
+    for (std::size_t l = 0; l < turns.size(); ++l) start_turns[l] += turns[l];
+    return start_turns;
 }
 
 /// Waypoints in the model.
@@ -164,26 +166,26 @@ std::vector<Waypoint> in_model(const TargetModel& target, const std::vector<Wayp
 
 /// The start from the circle domain as it was moved.
 SlidingStart start_from(const LoopPartners& matched, const Surface& source, const TargetModel& target,
-                        const OntoOptions& options) {
-    Placement placed = place(matched, source, target, options);
+                        const Correspondence& wanted, const std::vector<double>& start_turns) {
+    Placement placed = place(matched, source, target, wanted.marks, start_turns);
     const int flips = folded(source, placed.harmonic);
     int factorizations = 1;
     // Waypoints and marks say how the map is to be twisted.
-    if (flips > 0 && !options.waypoints && options.marks.empty()) {
+    if (flips > 0 && !wanted.waypoints && wanted.marks.empty()) {
         const Untwisting loops =
-            untwisting(source, target, started(matched, source, target, placed, placed.harmonic), options.outer_loop);
+            untwisting(source, target, started(matched, source, target, placed, placed.harmonic), wanted.outer_loop);
         factorizations += loops.factorizations;
-        if (const auto further = turned_further(options, loops.turns)) {
-            placed = place(matched, source, target, *further);
+        if (const auto further = turned_further(start_turns, loops.turns)) {
+            placed = place(matched, source, target, wanted.marks, *further);
             ++factorizations;
         }
     }
     Eigen::VectorXcd map = placed.harmonic;
     std::vector<Waypoint> path;
-    const bool lead = options.waypoints || folded(source, map) > 0;
+    const bool lead = wanted.waypoints || folded(source, map) > 0;
     if (lead) {
-        if (options.waypoints) path = in_model(target, *options.waypoints);
-        const Continuation way(source, matched.vertices, options.outer_loop, placed.model, path);
+        if (wanted.waypoints) path = in_model(target, *wanted.waypoints);
+        const Continuation way(source, matched.vertices, wanted.outer_loop, placed.model, path);
         const FollowedMap followed = follow(source, way, kLargestStep);
         map = followed.map;
         factorizations += followed.steps;
@@ -199,18 +201,18 @@ SlidingStart start_from(const LoopPartners& matched, const Surface& source, cons
 }  // namespace
 
 SlidingStart sliding_start(const Surface& source, const CircleDomainChart& chart, const TargetModel& target,
-                           const OntoOptions& options) {
-    const LoopPartners matched = loop_partners(source, chart, target, options);
-    validate(options.marks, source, target.domain(), matched.curves);
+                           const Correspondence& wanted, const std::vector<double>& start_turns) {
+    const LoopPartners matched = loop_partners(source, chart, target, wanted);
+    validate(wanted.marks, source, target.domain(), matched.curves);
     try {
-        return start_from(matched, source, target, options);
+        return start_from(matched, source, target, wanted, start_turns);
     } catch (const Error& error) {
         // Where there is no way from the moved domain there may be one from the turned one; the result says which it
         // was.
         if (matched.move.centre == 0.0 || (error.cause() != Cause::not_solved && error.cause() != Cause::bad_boundary))
             throw;
     }
-    return start_from(turned(matched, chart, target, options), source, target, options);
+    return start_from(turned(matched, chart, target, wanted), source, target, wanted, start_turns);
 }
 
 void hold_what_conformal_maps_move(std::vector<SlidingLoop>& loops, int outer, std::size_t marks) {

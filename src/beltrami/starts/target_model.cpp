@@ -1,7 +1,10 @@
-#include <beltrami/teichmuller/target_model.h>
+#include <beltrami/starts/target_model.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
+#include <beltrami/base/error.h>
 #include <beltrami/mesh/planar.h>
 
 namespace beltrami {
@@ -112,6 +115,49 @@ TargetDomain circle_target(const CircleDomainChart& chart) {
     for (const RoundHole& hole : chart.holes)
         target.holes.push_back(TargetCurve::circle(hole.centre, hole.radius).reversed());
     return target;
+}
+
+namespace {
+
+/// Curves of a circle domain: 0 for the outer loop, then the holes of the chart.
+int curve_of_loop(const CircleDomainChart& chart, int loop) {
+    if (loop == chart.outer_loop()) return 0;
+    for (std::size_t h = 0; h < chart.holes.size(); ++h)
+        if (chart.holes[h].loop == loop) return static_cast<int>(h) + 1;
+    throw Error(Cause::bad_option, "the target has no boundary loop " + std::to_string(loop),
+                "`beltrami info` prints the loops' numbers");
+}
+
+/// The place on the circle domain of a boundary vertex of the target.
+CurveParameter place_on_circles(const Surface& target, const CircleDomainChart& chart, int vertex) {
+    const auto& loops = target.topology.boundary_loops;
+    int on = -1;
+    for (std::size_t l = 0; l < loops.size(); ++l)
+        if (std::find(loops[l].begin(), loops[l].end(), vertex) != loops[l].end()) on = static_cast<int>(l);
+    if (on < 0)
+        throw Error(Cause::bad_boundary,
+                    "the mark's vertex " + std::to_string(vertex) + " is not on the boundary of the target",
+                    "mark boundary vertices only", {vertex});
+    const RoundHole circle = chart.circle(on);
+    const int curve = curve_of_loop(chart, on);
+    const double angle = std::arg(chart.chart.vertices[vertex] - circle.centre);
+    return {curve, circle.radius * (curve == 0 ? angle : -angle)};
+}
+
+}  // namespace
+
+Correspondence correspondence_on_circles(const Correspondence& wanted, const Surface& target,
+                                         const CircleDomainChart& chart) {
+    Correspondence result = wanted;
+    for (auto& [loop, curve] : result.loops) curve = curve_of_loop(chart, curve);
+    for (Mark& mark : result.marks) {
+        const TargetVertex* to = std::get_if<TargetVertex>(&mark.to);
+        if (!to)
+            throw Error(Cause::bad_option, "marks on curves are given for a target that is a surface",
+                        "give pairs of vertices instead", {mark.vertex});
+        mark.to = place_on_circles(target, chart, to->vertex);
+    }
+    return result;
 }
 
 }  // namespace beltrami

@@ -4,18 +4,19 @@
 #include <string>
 #include <vector>
 
+#include <beltrami/charts/circle_domain_chart.h>
 #include <beltrami/differentials/differential_space.h>
 #include <beltrami/solve/beltrami_solver.h>
-#include <beltrami/teichmuller/extremal_onto.h>
+#include <beltrami/teichmuller/extremal_options.h>
 
 namespace beltrami {
 
 /// The admissible differentials of a source whose boundary slides, and the chart in which they are written down.
-struct OntoDifferentials {
+struct AdmissibleDifferentials {
     Chart chart;  ///< to the source's circle domain, or the frames of the samples where φ is tabulated on any surface
     std::unique_ptr<DifferentialSpace> space;  ///< null where there are none: the map is conformal
     double gap = 0;                            ///< how clearly the dimension was told
-    OntoOptions::Space kind = OntoOptions::Space::automatic;
+    ExtremalOptions::Space kind = ExtremalOptions::Space::automatic;
     std::vector<std::string> warnings;
 };
 
@@ -25,7 +26,8 @@ struct OntoDifferentials {
 /// @param dimension by theory
 /// @param solver    of the source's f-step, which projections may use; or null
 /// @throw Error bad_option, not_solved
-OntoDifferentials onto_differentials(const Surface& source, const CircleDomainChart& domain, OntoOptions::Space wanted,
-                                     const std::vector<int>& marked, int dimension, BeltramiSolver* solver);
+AdmissibleDifferentials admissible_differentials(const Surface& source, const CircleDomainChart& domain,
+                                                 ExtremalOptions::Space wanted, const std::vector<int>& marked,
+                                                 int dimension, BeltramiSolver* solver);
 
 }  // namespace beltrami

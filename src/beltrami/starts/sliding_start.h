@@ -1,8 +1,9 @@
 #pragma once
 
+#include <beltrami/plane/disk_moebius.h>
 #include <beltrami/solve/sliding_boundary.h>
-#include <beltrami/teichmuller/extremal_onto.h>
-#include <beltrami/teichmuller/target_model.h>
+#include <beltrami/starts/target_model.h>
+#include <beltrami/targets/correspondence.h>
 
 namespace beltrami {
 
@@ -24,9 +25,11 @@ struct SlidingStart {
 /// they are turned first so that it is not twisted (untwisting.h). Then the holes are led along their way
 /// (continuation.h) in the unit disk of the model, and the result is carried to the target.
 /// @param chart circle domain of the source
+/// @param start_turns every loop's vertices start so many radians ahead of where they would, one number per loop of the
+///                    source; empty: none. What is found from the start does not depend on it.
 /// @throw Error bad_boundary, bad_option, not_solved
 SlidingStart sliding_start(const Surface& source, const CircleDomainChart& chart, const TargetModel& target,
-                           const OntoOptions& options);
+                           const Correspondence& wanted, const std::vector<double>& start_turns = {});
 
 /// Holds as many vertices of the outer loop as conformal maps of the source to itself leave free, spread evenly: one of
 /// an annulus, three of a disk, less the marks.

@@ -1,4 +1,4 @@
-#include <beltrami/teichmuller/onto_differentials.h>
+#include <beltrami/teichmuller/admissible_differentials.h>
 
 #include <algorithm>
 #include <limits>
@@ -25,18 +25,19 @@ Eigen::VectorXcd circle_tangents(const Surface& source, const CircleDomainChart&
 /// On round disks and annuli Laurent series are exact and best: k of the disk with four marks is off by 5e-5 at 13 824
 /// triangles, by 2e-4 with the other two; of the ring .5 → .3 at h = .02 by 5e-6 against 3e-5. From two holes on the
 /// errors of projections cancel those of the map better. Corners ask for squares of 1-forms.
-OntoOptions::Space automatic_kind(const CircleDomainChart& domain, bool quadrilateral) {
-    using Space = OntoOptions::Space;
+ExtremalOptions::Space automatic_kind(const CircleDomainChart& domain, bool quadrilateral) {
+    using Space = ExtremalOptions::Space;
     if (domain.chart.exact && domain.holes.size() <= 1) return Space::laurent;
     return quadrilateral ? Space::one_form_squares : Space::projection;
 }
 
 }  // namespace
 
-OntoDifferentials onto_differentials(const Surface& source, const CircleDomainChart& domain, OntoOptions::Space wanted,
-                                     const std::vector<int>& marked, int dimension, BeltramiSolver* solver) {
-    using Space = OntoOptions::Space;
-    OntoDifferentials result;
+AdmissibleDifferentials admissible_differentials(const Surface& source, const CircleDomainChart& domain,
+                                                 ExtremalOptions::Space wanted, const std::vector<int>& marked,
+                                                 int dimension, BeltramiSolver* solver) {
+    using Space = ExtremalOptions::Space;
+    AdmissibleDifferentials result;
     result.kind = wanted;
     const bool quadrilateral = domain.holes.empty() && marked.size() == 4;
     if (result.kind == Space::automatic) result.kind = automatic_kind(domain, quadrilateral);

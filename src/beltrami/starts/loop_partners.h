@@ -2,8 +2,9 @@
 
 #include <vector>
 
-#include <beltrami/teichmuller/extremal_onto.h>
-#include <beltrami/teichmuller/target_model.h>
+#include <beltrami/plane/disk_moebius.h>
+#include <beltrami/starts/target_model.h>
+#include <beltrami/targets/correspondence.h>
 
 namespace beltrami {
 
@@ -15,15 +16,15 @@ struct LoopPartners {
     std::vector<RoundHole> circles;  ///< of every loop, moved
 };
 
-/// Pairs the loops, as options.loops have them or matched (circle_matching.h), and moves the source's circle domain by
+/// Pairs the loops, as wanted.loops has them or matched (circle_matching.h), and moves the source's circle domain by
 /// the best Möbius map: conformal copies of a source get the same start. Where waypoints say how the holes go on it is
 /// only turned, as it is where the faces are too large for the Möbius map to keep their sides.
 /// @throw Error bad_boundary, bad_option
 LoopPartners loop_partners(const Surface& source, const CircleDomainChart& chart, const TargetModel& target,
-                           const OntoOptions& options);
+                           const Correspondence& wanted);
 
 /// The same partners with the source's circle domain only turned, where no places are marked.
 LoopPartners turned(const LoopPartners& partners, const CircleDomainChart& chart, const TargetModel& target,
-                    const OntoOptions& options);
+                    const Correspondence& wanted);
 
 }  // namespace beltrami

@@ -1,4 +1,4 @@
-#include <beltrami/teichmuller/untwisting.h>
+#include <beltrami/starts/untwisting.h>
 
 #include <cmath>
 #include <numbers>
@@ -21,13 +21,12 @@ Untwisting untwisting(const Surface& source, const TargetModel& target, const Sl
     std::vector<SlidingLoop> loops = start.loops;
     hold_what_conformal_maps_move(loops, outer_loop, 0);
     SlidingBoundary boundary(source, std::move(loops));
-    SlidingMapStep step(source, boundary, kSteps);
+    SlidingMapStep step(source, boundary, start.map, kSteps);
     const Eigen::VectorXcd nu = Eigen::VectorXcd::Zero(source.operators.sample_count());
-    Eigen::VectorXcd map = start.map;
     std::vector<double> turns(start.loops.size(), 0);
     for (int i = 0; i < kSteps; ++i) {
         const std::vector<SlidingLoop> before = boundary.loops();
-        step.solve(nu, map, kTolerance);
+        step.solve(nu, kTolerance);
         for (std::size_t l = 0; l < turns.size(); ++l) {
             const std::vector<double>&from = before[l].parameters, &to = boundary.loops()[l].parameters;
             double sum = 0;

@@ -1,9 +1,18 @@
 #pragma once
 
+#include <vector>
+
 #include <beltrami/solve/sliding_boundary.h>
-#include <beltrami/teichmuller/extremal_onto.h>
 
 namespace beltrami {
+
+/// A boundary loop and what became of it.
+struct LoopOnto {
+    int loop = 0;                    ///< of the source's boundary loops
+    int curve = 0;                   ///< of the target
+    std::vector<double> parameters;  ///< arc length on the curve of every vertex of the loop, ascending
+    double area_ratio = 0;  ///< area within the image polygon over that within the curve: near 1 if it runs around once
+};
 
 /// What became of the loops.
 /// @param curves of every loop of the source

@@ -1,4 +1,4 @@
-#include <beltrami/teichmuller/sliding_loops.h>
+#include <beltrami/starts/sliding_loops.h>
 
 #include <string>
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <beltrami/charts/chart_places.h>
-#include <beltrami/targets/target_domain.h>
+#include <beltrami/targets/correspondence.h>
 #include <beltrami/targets/target_mesh.h>
 
 namespace beltrami {
@@ -50,5 +50,12 @@ double edge_length_for(const Surface& source, const TargetDomain& target, double
 
 /// The circle domain of a chart as a target of its own.
 TargetDomain circle_target(const CircleDomainChart& chart);
+
+/// What a correspondence with a surface becomes where the circle domain of that surface stands for it: loops are paired
+/// with its curves, marks go to places on them.
+/// @throw Error bad_option for marks on curves or a loop that the target has not; bad_boundary for a vertex that is not
+///        on its boundary
+Correspondence correspondence_on_circles(const Correspondence& wanted, const Surface& target,
+                                         const CircleDomainChart& chart);
 
 }  // namespace beltrami

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <beltrami/operators/distortion.h>
+
+namespace beltrami {
+
+/// How an iteration ended.
+enum class Termination {
+    converged,        ///< what it settles has settled
+    iteration_limit,  ///< max_iterations
+    /// Settled, but at a boundary vertex the boundary values alone force a larger dilatation than the K found: the
+    /// extremal map is not of Teichmüller type and not unique.
+    not_teichmuller,
+};
+const char* to_string(Termination);
+
+/// What every map of this library comes with.
+struct MapResult {
+    Eigen::VectorXcd map;   ///< #V images in the plane
+    Distortion distortion;  ///< of map
+    Termination termination = Termination::converged;
+    int iterations = 0;      ///< linear solves
+    int factorizations = 0;  ///< of #V×#V systems and larger, those of charts and starts included
+    std::vector<std::string> warnings;
+
+    /// Whether no face is flipped or collapsed: with a simple boundary polygon the map is then one-to-one.
+    bool one_to_one() const { return distortion.flipped.empty() && distortion.degenerate.empty(); }
+};
+
+/// Largest K of a face; infinite if faces are flipped or collapsed.
+double largest_dilatation(const Distortion& distortion);
+
+}  // namespace beltrami

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <beltrami/base/complex.h>
+#include <beltrami/base/iteration_options.h>
+#include <beltrami/teichmuller/hamilton.h>
+
+namespace beltrami {
+
+/// How an extremal problem is solved.
+struct ExtremalOptions : IterationOptions {
+    // tolerance: stop when the change of the direction of φ is below this, and |Δk| below it too (where boundaries
+    // slide: below a hundredth of it). 0: 1e-8 with prescribed boundary values, 1e-6 where boundaries slide. Where φ is
+    // singular (corners, pins) and the map is to be evened out, which moves φ further, 0.03 and its square will do.
+
+    double growth = 1e-5;      ///< the space of differentials grows while that raises k by more than this part
+    int cluster_count = 1500;  ///< quadrature points of the c-step on large meshes, at least 100
+    /// A map to start from (#V) instead of the harmonic one, for instance one of another homotopy class; prescribed
+    /// vertices are put in their places. Where the map that comes of it is folded, all begins again without it, and a
+    /// warning says so.
+    std::optional<Eigen::VectorXcd> start;
+    /// Split edges and faces that the prescribed vertices nail down (prescribed_split.h): no solver can repair them.
+    bool split_prescribed = true;
+    /// Even |μ| out after the iteration (even_dilatation.h): where the map is still far from |μ| = k, always or never.
+    enum class Evening { where_needed, always, never };
+    Evening evening = Evening::where_needed;
+    bool remove_folds = true;  ///< finish with a fold-free solve where faces are flipped
+    /// Midpoint subdivisions of the mesh for a bound by piecewise quadratic maps (sharpened_bound.h), which is far
+    /// better where K is large or the mesh coarse. Empty: 0 from k = .8 on, and on meshes of up to 10⁵
+    /// samples where the bracket is wider than 1 %, else none; negative: never.
+    std::optional<int> sharpen;
+
+    // Where boundaries slide:
+
+    /// How the admissible differentials are found: by L² projection on the source's mesh (projected_space.h), which has
+    /// the errors of the mesh just as the maps have, by Laurent series on the circle domain of the source
+    /// (laurent_space.h), which are exact there, or, for a disk with four marks, as the square of a 1-form
+    /// (one_form_squares.h), which is at home in corners. automatic: the second for round disks and annuli in the
+    /// plane, the third for other disks with four marks, else the first.
+    enum class Space { automatic, projection, laurent, one_form_squares };
+    Space space = Space::automatic;
+    /// Large problems without marks start from the extremal map of a coarse mesh of the source's circle domain.
+    bool coarse_start = true;
+    double target_edge_length = 0;  ///< of the mesh of a target that is not round; 0: that of the source, relatively
+    /// Every loop's vertices start so many radians ahead of where they would (one number per loop of the source; empty:
+    /// none). The result does not depend on it.
+    std::vector<double> start_turns;
+
+    /// @throw Error bad_option naming the first impossible value
+    void validate() const;
+};
+
+const char* to_string(ExtremalOptions::Space);
+
+/// What the options say about the iteration where boundary values are prescribed.
+HamiltonIteration::Options iteration_options(const ExtremalOptions& options);
+/// The same where boundaries slide: the space of differentials does not grow.
+HamiltonIteration::Options sliding_iteration_options(const ExtremalOptions& options);
+
+}  // namespace beltrami
