@@ -46,11 +46,12 @@ def without_seconds(value):
 
 
 def comparable(text):
-    """A record without its seconds; other text without times and folders of its own."""
+    """A record without its seconds, other text without times; both without the names of temporary folders."""
     try:
-        return json.dumps(without_seconds(json.loads(text)), sort_keys=True)
+        text = json.dumps(without_seconds(json.loads(text)), sort_keys=True)
     except ValueError:
-        return re.sub(r"/tmp/tmp[^/\s]*", "/tmp", TIMES.sub("…", text))
+        text = TIMES.sub("…", text)
+    return re.sub(r"/tmp/tmp[^/\s]*", "/tmp", text)
 
 
 def calls(binary, test):
