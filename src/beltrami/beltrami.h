@@ -65,3 +65,4 @@
 #include <beltrami/teichmuller/least_maximum.h>
 #include <beltrami/unfold/fold_free.h>
 #include <beltrami/uniformize/flatten.h>
+#include <beltrami/version.h>

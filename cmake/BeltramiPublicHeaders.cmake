@@ -1,0 +1,17 @@
+# The headers under <folder> that <header> includes, itself and those they include too, as paths relative to <folder>. They
+# are what a user can include; what none of them needs is not installed.
+function(beltrami_public_headers folder header result)
+    set(found ${${result}})
+    if(NOT header IN_LIST found)
+        list(APPEND found ${header})
+        set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${folder}/${header})
+        file(STRINGS ${folder}/${header} lines REGEX "^#include <beltrami/")
+        foreach(line IN LISTS lines)
+            string(REGEX REPLACE "^#include <([^>]*)>.*" "\\1" included "${line}")
+            if(EXISTS ${folder}/${included})
+                beltrami_public_headers(${folder} ${included} found)
+            endif()
+        endforeach()
+    endif()
+    set(${result} ${found} PARENT_SCOPE)
+endfunction()
