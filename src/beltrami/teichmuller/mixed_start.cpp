@@ -1,0 +1,352 @@
+#include <beltrami/teichmuller/mixed_start.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <beltrami/base/error.h>
+#include <beltrami/operators/distortion.h>
+#include <beltrami/solve/dirichlet_solver.h>
+#include <beltrami/solve/sliding_map_step.h>
+#include <beltrami/unfold/fold_free.h>
+
+namespace beltrami {
+
+namespace {
+
+/// Ends of sliding arcs lie on their curve to this part of its diameter.
+constexpr double kOnCurve = 1e-6;
+/// Steps in which loops turn, and the movement, as part of the curve, at which they have.
+constexpr int kTurningSteps = 20;
+constexpr double kTurnedBelow = 0.02, kTurningTolerance = 1e-3;
+/// Pushes of inner vertices, how far each goes and the disk it moves, as parts of the distance to what is not to move
+/// with it.
+constexpr int kPushes = 500;
+constexpr double kPush = 0.1, kReach = 0.9;
+/// Newton steps in which folds of the start are opened.
+constexpr int kOpeningSteps = 60;
+
+/// The similarity a z + b that fits what is prescribed best, in least squares.
+struct Similarity {
+    Complex a = 1, b = 0;
+};
+
+Similarity fitted(const Eigen::VectorXcd& z, const BoundaryCondition& prescribed) {
+    const auto n = static_cast<double>(prescribed.vertices.size());
+    if (prescribed.vertices.empty()) return {};
+    Complex from = 0, to = 0, product = 0;
+    double square = 0;
+    for (std::size_t i = 0; i < prescribed.vertices.size(); ++i) {
+        from += z[prescribed.vertices[i]] / n;
+        to += prescribed.images[i] / n;
+    }
+    for (std::size_t i = 0; i < prescribed.vertices.size(); ++i) {
+        const Complex at = z[prescribed.vertices[i]] - from;
+        product += std::conj(at) * (prescribed.images[i] - to);
+        square += std::norm(at);
+    }
+    if (!(square > 0) || product == 0.0) return {1, to - from};
+    return {product / square, to - product / square * from};
+}
+
+/// Where the vertices of one loop stand along its curve.
+class LoopPlaces {
+  public:
+    LoopPlaces(const Surface& source, const CircleDomainChart& domain, const MixedBoundary& boundary, int loop,
+               const Similarity& similarity)
+        : vertices_(source.topology.boundary_loops[loop]),
+          held_(boundary.held[loop]),
+          curve_(*boundary.curves[loop]),
+          images_(vertices_.size()) {
+        for (std::size_t i = 0; i < boundary.prescribed.vertices.size(); ++i) {
+            const auto at = std::find(vertices_.begin(), vertices_.end(), boundary.prescribed.vertices[i]);
+            if (at != vertices_.end()) images_[at - vertices_.begin()] = boundary.prescribed.images[i];
+        }
+        const int n = static_cast<int>(vertices_.size());
+        const Complex centre = domain.circle(loop).centre;
+        // Angles in the direction of the loop, ascending, once around and back to the first vertex.
+        const double sign = loop == domain.outer_loop() ? 1 : -1;
+        turns_.push_back(0);
+        for (int i = 0; i < n; ++i) {
+            const Complex z = domain.chart.vertices[vertices_[i]] - centre,
+                          next = domain.chart.vertices[vertices_[(i + 1) % n]] - centre;
+            turns_.push_back(turns_.back() + sign * std::arg(next / z));
+        }
+        parameters_.assign(n, 0);
+        const auto first = std::find(held_.begin(), held_.end(), 1);
+        if (first == held_.end()) {
+            place_freely(similarity.a * (domain.chart.vertices[vertices_[0]] - centre));
+        } else {
+            place_between(static_cast<int>(first - held_.begin()));
+        }
+    }
+    SlidingLoop sliding(int loop) const { return {loop, curve_, parameters_, held_}; }
+
+  private:
+    bool ends_arc(int i) const {
+        const int n = static_cast<int>(vertices_.size());
+        return held_[i] && (!held_[(i + 1) % n] || !held_[(i + n - 1) % n]);
+    }
+    double turn(int i) const {
+        const int n = static_cast<int>(vertices_.size());
+        return turns_[i % n] + (i >= n ? turns_[n] : 0);
+    }
+    /// The first vertex goes to a direction seen from the middle of the curve.
+    void place_freely(Complex direction) {
+        Complex middle = 0;
+        constexpr int kPoints = 64;
+        for (int i = 0; i < kPoints; ++i) middle += curve_.point(curve_.length() * i / kPoints) / double(kPoints);
+        const double s = curve_.nearest(middle + curve_.diameter() * direction / std::abs(direction));
+        for (std::size_t i = 0; i < vertices_.size(); ++i)
+            parameters_[i] = s + curve_.length() * turns_[i] / turns_.back();
+    }
+    double parameter_of(int i) const {
+        const double s = curve_.nearest(images_[i]);
+        if (std::abs(curve_.point(s) - images_[i]) > kOnCurve * curve_.diameter())
+            throw Error(Cause::bad_boundary,
+                        "the image of vertex " + std::to_string(vertices_[i]) +
+                            ", beside vertices that slide, does not lie on the curve along which they do",
+                        "ends of sliding arcs and marks go to the curve", {vertices_[i]});
+        return s;
+    }
+    void place_between(int first) {
+        const int n = static_cast<int>(vertices_.size());
+        // From one end of an arc to the next.
+        while (!ends_arc(first)) ++first;
+        std::vector<double> unwound(n + 1, 0.0);  // by positions from first on
+        unwound[0] = parameter_of(first);
+        for (int i = 0; i < n;) {
+            int j = i + 1;
+            while (!ends_arc((first + j) % n)) ++j;
+            const int from = (first + i) % n, to = (first + j) % n;
+            const double begin = unwound[i];
+            const double length = j == n && i == 0 ? curve_.length() : curve_.ahead(begin, parameter_of(to));
+            const double whole = turn(from + j - i) - turn(from);
+            // Prescribed vertices between stand where they are told to; evenly will do.
+            const bool slides = !held_[(from + 1) % n];
+            for (int m = i + 1; m <= j; ++m)
+                unwound[m] = begin + length * (slides || j == i + 1 ? (turn(from + m - i) - turn(from)) / whole
+                                                                    : static_cast<double>(m - i) / (j - i));
+            i = j;
+        }
+        const double around = unwound[n] - unwound[0];
+        if (std::abs(around - curve_.length()) > 1e-6 * curve_.length())
+            throw Error(Cause::bad_boundary,
+                        "the prescribed vertices of a loop follow each other along its curve in another order than "
+                        "along the loop",
+                        "a one-to-one map keeps the order, the surface on the left on both sides", {vertices_[first]});
+        for (int m = 0; m < n; ++m) parameters_[(first + m) % n] = unwound[m] - (first + m >= n ? around : 0);
+    }
+
+    const std::vector<int>& vertices_;
+    std::vector<char> held_;
+    const TargetCurve& curve_;
+    std::vector<Complex> images_;
+    std::vector<double> turns_, parameters_;
+};
+
+/// Everything prescribed, sliding vertices where they stand.
+BoundaryCondition all_prescribed(const Surface& source, const MixedBoundary& boundary,
+                                 const std::vector<SlidingLoop>& loops) {
+    BoundaryCondition result = boundary.prescribed;
+    for (const SlidingLoop& sliding : loops) {
+        const auto& vertices = source.topology.boundary_loops[sliding.loop];
+        for (std::size_t i = 0; i < vertices.size(); ++i)
+            if (!sliding.held[i]) result.pin(vertices[i], sliding.curve.point(sliding.parameters[i]));
+    }
+    return result;
+}
+
+/// The part of a condition that is about the boundary.
+BoundaryCondition rim_of(const Surface& source, const BoundaryCondition& boundary) {
+    BoundaryCondition result;
+    for (std::size_t i = 0; i < boundary.vertices.size(); ++i)
+        if (source.topology.on_boundary[boundary.vertices[i]]) result.pin(boundary.vertices[i], boundary.images[i]);
+    return result;
+}
+
+int folded(const Surface& source, const Eigen::VectorXcd& map) {
+    return static_cast<int>(distortion(source.operators, map).flipped.size());
+}
+
+/// Carries a map's inner vertices so that those in question come to their places and none of their surroundings folds:
+/// each is pushed straight to its place, a disk about it that holds no other one and no boundary along with it, less
+/// towards the rim of the disk. A harmonic map with such vertices would fold around them.
+/// @param vertices, places of those
+/// @return whether all have come
+bool push(const Surface& source, const std::vector<int>& vertices, const std::vector<Complex>& places,
+          Eigen::VectorXcd& map) {
+    std::vector<int> rim;
+    for (const auto& loop : source.topology.boundary_loops) rim.insert(rim.end(), loop.begin(), loop.end());
+    const std::size_t n = vertices.size();
+    for (int step = 0; step < kPushes; ++step) {
+        std::vector<Complex> at(n), by(n);
+        std::vector<double> reach(n, std::numeric_limits<double>::infinity());
+        double largest = 0;  // of what is left, as part of the disk
+        for (std::size_t i = 0; i < n; ++i) {
+            at[i] = map[vertices[i]];
+            by[i] = places[i] - at[i];
+        }
+        for (std::size_t i = 0; i < n; ++i) {
+            for (std::size_t j = 0; j < n; ++j)
+                if (j != i) reach[i] = std::min(reach[i], std::abs(at[j] - at[i]));
+            for (const int v : rim) reach[i] = std::min(reach[i], std::abs(map[v] - at[i]));
+            reach[i] *= kReach;
+            if (!(reach[i] > 0)) return false;
+            largest = std::max(largest, std::abs(by[i]) / reach[i]);
+        }
+        if (largest == 0) return true;
+        const double part = std::min(1.0, kPush / largest);
+        // One after another: each of these pushes is one-to-one.
+        for (std::size_t i = 0; i < n; ++i) {
+            const double square = reach[i] * reach[i];
+            for (Eigen::Index v = 0; v < map.size(); ++v) {
+                const double far = std::norm(map[v] - at[i]) / square;
+                if (far < 1 && !source.topology.on_boundary[v]) map[v] += part * by[i] * (1 - far) * (1 - far);
+            }
+            if (part == 1) map[vertices[i]] = places[i];
+        }
+    }
+    return false;
+}
+
+/// Turns the loops without held vertices to where the harmonic map has least energy; whether any was.
+bool turn_loops(const Surface& source, const MixedBoundary& boundary, MixedStart& start) {
+    const auto is_free = [](const SlidingLoop& loop) {
+        return std::find(loop.held.begin(), loop.held.end(), 1) == loop.held.end();
+    };
+    // Without anything prescribed on the boundary there is nothing to turn against.
+    if (std::none_of(start.loops.begin(), start.loops.end(), is_free) ||
+        std::none_of(boundary.held.begin(), boundary.held.end(),
+                     [](const auto& held) { return std::find(held.begin(), held.end(), 1) != held.end(); }))
+        return false;
+    SlidingBoundary sliding(source, start.loops, rim_of(source, boundary.prescribed));
+    SlidingMapStep step(source, sliding, start.map, kTurningSteps);
+    const Eigen::VectorXcd nu = Eigen::VectorXcd::Zero(source.operators.sample_count());
+    bool settled = false;
+    for (int i = 0; i < kTurningSteps && !settled; ++i) {
+        step.solve(nu, kTurningTolerance);
+        settled = step.movement() < kTurnedBelow;
+    }
+    start.factorizations += step.factorization_count();
+    if (!settled) return false;
+    for (std::size_t l = 0; l < start.loops.size(); ++l) {
+        if (!is_free(start.loops[l])) continue;
+        const auto n = static_cast<double>(start.loops[l].parameters.size());
+        double ahead = 0;
+        for (std::size_t i = 0; i < start.loops[l].parameters.size(); ++i)
+            ahead += (sliding.loops()[l].parameters[i] - start.loops[l].parameters[i]) / n;
+        for (double& s : start.loops[l].parameters) s += ahead;
+    }
+    return true;
+}
+
+}  // namespace
+
+bool MixedBoundary::slides(int loop) const {
+    return std::find(held[loop].begin(), held[loop].end(), 0) != held[loop].end();
+}
+
+MixedBoundary mixed_boundary(const Surface& source, const MixedConditions& conditions) {
+    const auto& loops = source.topology.boundary_loops;
+    validate(conditions.prescribed, source);
+    if (conditions.curves.size() != loops.size())
+        throw Error(Cause::bad_option,
+                    "curves are given for " + std::to_string(conditions.curves.size()) +
+                        " boundary loops, the source has " + std::to_string(loops.size()),
+                    "give one entry for every loop");
+    std::vector<char> slides(source.mesh.vertex_count(), 0);
+    for (const SlidingArc& arc : conditions.arcs) {
+        bool found = false;
+        for (const auto& loop : loops) {
+            const auto first = std::find(loop.begin(), loop.end(), arc.first);
+            if (first == loop.end() || std::find(loop.begin(), loop.end(), arc.last) == loop.end()) continue;
+            found = true;
+            auto at = static_cast<std::size_t>(first - loop.begin());
+            for (at = (at + 1) % loop.size(); loop[at] != arc.last; at = (at + 1) % loop.size()) slides[loop[at]] = 1;
+        }
+        if (!found)
+            throw Error(Cause::bad_boundary,
+                        "the arc from vertex " + std::to_string(arc.first) + " to vertex " + std::to_string(arc.last) +
+                            " does not lie on a boundary loop",
+                        "name two vertices of one loop", {arc.first, arc.last});
+    }
+    MixedBoundary result;
+    std::vector<char> is_prescribed(source.mesh.vertex_count(), 0);
+    for (std::size_t i = 0; i < conditions.prescribed.vertices.size(); ++i) {
+        const int v = conditions.prescribed.vertices[i];
+        if (slides[v]) continue;
+        is_prescribed[v] = 1;
+        result.prescribed.pin(v, conditions.prescribed.images[i]);
+    }
+    result.prescribed.lines = conditions.prescribed.lines;
+    for (std::size_t l = 0; l < loops.size(); ++l) {
+        std::vector<char>& held = result.held.emplace_back();
+        for (const int v : loops[l]) held.push_back(is_prescribed[v]);
+        std::optional<TargetCurve>& curve = result.curves.emplace_back(conditions.curves[l]);
+        const auto free = std::find(held.begin(), held.end(), 0);
+        if (free == held.end()) {
+            curve.reset();
+            continue;
+        }
+        const int vertex = loops[l][static_cast<std::size_t>(free - held.begin())];
+        if (!curve)
+            throw Error(Cause::bad_boundary,
+                        "vertex " + std::to_string(vertex) + " of boundary loop " + std::to_string(l) +
+                            " is not prescribed, and its loop has no curve along which it could slide",
+                        "prescribe the whole loop, or give it a curve", {vertex});
+        if (curve->counter_clockwise() != (static_cast<int>(l) == conditions.outer_loop)) *curve = curve->reversed();
+    }
+    return result;
+}
+
+MixedStart mixed_start(const Surface& source, const CircleDomainChart& domain, const MixedBoundary& boundary) {
+    MixedStart result;
+    const Similarity similarity = fitted(domain.chart.vertices, boundary.prescribed);
+    for (int l = 0; l < static_cast<int>(boundary.held.size()); ++l)
+        if (boundary.slides(l)) result.loops.push_back(LoopPlaces(source, domain, boundary, l, similarity).sliding(l));
+    // Without what is constrained inside, which follows.
+    std::vector<int> inside;
+    for (const int v : boundary.prescribed.vertices)
+        if (!source.topology.on_boundary[v]) inside.push_back(v);
+    for (const auto& line : boundary.prescribed.lines) inside.push_back(line.vertex);
+    const auto harmonic = [&] {
+        ++result.factorizations;
+        result.map = harmonic_map(source, rim_of(source, all_prescribed(source, boundary, result.loops)));
+        return folded(source, result.map);
+    };
+    result.flips = harmonic();
+    const auto open = [&](const std::vector<Freedom>& freedom) {
+        FoldFreeOptions options;
+        options.max_iterations = kOpeningSteps;
+        const FoldFreeMap opened = fold_free_map(
+            source, freedom, Eigen::VectorXcd::Zero(source.operators.sample_count()), result.map, options);
+        result.factorizations += opened.factorizations;
+        if (!opened.fold_free) return;
+        result.map = opened.map;
+        result.unfolded = true;
+    };
+    if (result.flips > 0) {
+        const bool still = !turn_loops(source, boundary, result) || harmonic() > 0;
+        if (still) open(dirichlet_freedoms(source));
+    }
+    if (inside.empty()) return result;
+    std::vector<Complex> places;
+    for (std::size_t i = 0; i < boundary.prescribed.vertices.size(); ++i)
+        if (!source.topology.on_boundary[boundary.prescribed.vertices[i]])
+            places.push_back(boundary.prescribed.images[i]);
+    for (const auto& line : boundary.prescribed.lines) {
+        const Complex along = line.direction / std::abs(line.direction);
+        places.push_back(line.point + along * std::real(std::conj(along) * (result.map[line.vertex] - line.point)));
+    }
+    push(source, inside, places, result.map);
+    for (std::size_t i = 0; i < inside.size(); ++i) result.map[inside[i]] = places[i];
+    if (folded(source, result.map) == 0) return result;
+    std::vector<Freedom> freedom = dirichlet_freedoms(source);
+    for (const int v : inside) freedom[v] = Freedom::fixed;
+    open(freedom);
+    return result;
+}
+
+}  // namespace beltrami

@@ -1,0 +1,207 @@
+// Boundary conditions that mix: closed forms, order of convergence, maps and their inverses, what is refused.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <beltrami/base/error.h>
+#include <beltrami/charts/circle_domain_chart.h>
+#include <beltrami/generate/round_domains.h>
+#include <beltrami/mesh/planar.h>
+#include <beltrami/teichmuller/extremal_mixed.h>
+
+#include "problems/mixed_problems.h"
+
+namespace beltrami {
+namespace {
+
+using bench::MixedProblemCase;
+
+MixedExtremalMap solve(const MixedProblemCase& problem) {
+    return mixed_extremal_map(Surface(problem.mesh), problem.conditions);
+}
+
+/// No folds, a settled iteration, the conditions obeyed, bounds in order and within one per cent.
+void expect_sound(const MixedExtremalMap& result) {
+    EXPECT_EQ(result.termination, Termination::converged);
+    EXPECT_TRUE(result.one_to_one()) << result.distortion.flipped.size() << " flipped";
+    EXPECT_EQ(result.boundary_residual, 0.0);
+    EXPECT_LT(result.curve_residual, 1e-12);
+    EXPECT_LE(result.K_lower, result.K);
+    EXPECT_LE(result.K, result.K_max);
+    EXPECT_LT(result.K_upper / result.K_lower, 1.01);
+    for (const std::string& warning : result.warnings) ADD_FAILURE() << warning;
+}
+
+double vertex_error(const MixedProblemCase& problem, const MixedExtremalMap& result) {
+    return (result.map.head(problem.exact->size()) - *problem.exact).cwiseAbs().maxCoeff();
+}
+
+/// k and the order in which the map converges, at h and h/2.
+void expect_second_order(MixedProblemCase (*make)(double), double h, double k_error) {
+    double last = 0;
+    for (const double edge : {h, h / 2}) {
+        const MixedProblemCase problem = make(edge);
+        const MixedExtremalMap result = solve(problem);
+        expect_sound(result);
+        EXPECT_LT(std::abs(result.k - *problem.exact_k), k_error * edge * edge / (h * h));
+        const double error = vertex_error(problem, result);
+        if (last > 0) EXPECT_GT(std::log2(last / error), 1.7);
+        last = error;
+    }
+}
+
+TEST(Mixed, RingWithASlidingInnerCircleIsTheExactMap) {
+    expect_second_order(bench::sliding_inner_circle, 0.16, 2e-3);
+}
+
+TEST(Mixed, SquareWithTwoSlidingSidesIsTheExactMap) {
+    expect_second_order(bench::two_sliding_sides, 0.1, 1e-3);
+}
+
+TEST(Mixed, SlidingHalfCircleIsTheExactMap) {
+    expect_second_order(bench::sliding_half_circle, 0.16, 4e-3);
+}
+
+/// A map and its inverse have one k.
+void expect_one_k(const MixedExtremalMap& there, const MixedExtremalMap& back) {
+    expect_sound(there);
+    expect_sound(back);
+    EXPECT_NEAR(there.k, back.k, 5e-4);
+}
+
+TEST(Mixed, TwoSlidingHolesHaveOneKBothWays) {
+    const MixedExtremalMap there = solve(bench::two_sliding_holes(0.08, false, false));
+    expect_one_k(there, solve(bench::two_sliding_holes(0.08, true, false)));
+    EXPECT_GT(there.start_flips, 0);
+    EXPECT_NEAR(there.k, 0.3902, 5e-4);
+}
+
+TEST(Mixed, TwoSlidingHolesAndAPinHaveOneKBothWays) {
+    const MixedExtremalMap there = solve(bench::two_sliding_holes(0.08, false, true));
+    expect_one_k(there, solve(bench::two_sliding_holes(0.08, true, true)));
+    EXPECT_NEAR(there.k, 0.4128, 1e-3);
+}
+
+TEST(Mixed, PinsInASlidingDiskHaveOneKBothWays) {
+    const MixedProblemCase two = bench::pins_in_sliding_disk(0.08, 2, false);
+    const MixedExtremalMap there = solve(two);
+    expect_one_k(there, solve(bench::pins_in_sliding_disk(0.08, 2, true)));
+    EXPECT_NEAR(there.k, *two.exact_k, 4e-4);
+    EXPECT_EQ(there.dimension, 1);
+    const MixedExtremalMap three = solve(bench::pins_in_sliding_disk(0.08, 3, false));
+    expect_one_k(three, solve(bench::pins_in_sliding_disk(0.08, 3, true)));
+    EXPECT_NEAR(three.k, 0.08795, 3e-4);
+    EXPECT_EQ(three.dimension, 3);
+    const MixedExtremalMap five = solve(bench::pins_in_sliding_disk(0.08, 5, false));
+    expect_one_k(five, solve(bench::pins_in_sliding_disk(0.08, 5, true)));
+    EXPECT_NEAR(five.k, 0.09707, 3e-4);
+    EXPECT_EQ(five.dimension, 7);
+}
+
+TEST(Mixed, PrescribedArcsHaveOneKBothWays) {
+    const MixedExtremalMap there = solve(bench::two_prescribed_arcs(0.1, false, true));
+    expect_one_k(there, solve(bench::two_prescribed_arcs(0.1, true, true)));
+    EXPECT_NEAR(there.k, 0.2261, 5e-4);
+}
+
+/// The inner circle of a ring may slide only half of the way round: arcs win over what is prescribed.
+TEST(Mixed, ArcsThatSlideWinOverWhatIsPrescribed) {
+    MixedProblemCase problem = bench::sliding_half_circle(0.16);
+    const Surface source(problem.mesh);
+    const auto& loop = source.topology.boundary_loops[0];
+    const Eigen::VectorXcd z = planar_coordinates(source.mesh);
+    const MixedExtremalMap expected = mixed_extremal_map(source, problem.conditions);
+    SlidingArc arc;
+    for (const int v : loop) {
+        if (std::abs(z[v] - 1.0) < 1e-9) arc.first = v;
+        if (std::abs(z[v] + 1.0) < 1e-9) arc.last = v;
+        if (z[v].imag() > 1e-12) problem.conditions.prescribed.pin(v, 7.0);  // nowhere
+    }
+    problem.conditions.arcs = {arc};
+    const MixedExtremalMap result = mixed_extremal_map(source, problem.conditions);
+    EXPECT_EQ(result.map, expected.map);
+}
+
+/// Turning and scaling source or image changes nothing.
+TEST(Mixed, DoesNotChangeUnderSimilarities) {
+    const MixedProblemCase problem = bench::two_prescribed_arcs(0.12, false, true);
+    const MixedExtremalMap plain = solve(problem);
+    MixedProblemCase moved = problem;
+    const Complex a = std::polar(2.5, 1.1), b(3, -1), c = std::polar(0.4, -0.6), d(-1, 2);
+    for (int v = 0; v < moved.mesh.vertex_count(); ++v) {
+        const Complex z = a * Complex(problem.mesh.positions(v, 0), problem.mesh.positions(v, 1)) + b;
+        moved.mesh.positions.row(v) << z.real(), z.imag();
+    }
+    for (Complex& image : moved.conditions.prescribed.images) image = c * image + d;
+    moved.conditions.curves = {TargetCurve::circle(d, std::abs(c))};
+    const MixedExtremalMap result = solve(moved);
+    expect_sound(result);
+    EXPECT_NEAR(result.k, plain.k, 1e-6);
+    EXPECT_LT((result.map - (c * plain.map.array() + d).matrix()).cwiseAbs().maxCoeff(), 1e-4 * std::abs(c));
+}
+
+/// With nothing prescribed but marks it is the problem of extremal_onto.h.
+TEST(Mixed, IsTheSlidingProblemWhereAllSlides) {
+    const Surface source(annulus(0.5, 1, 60));
+    MixedConditions conditions;
+    conditions.curves = {TargetCurve::circle(0, 1), TargetCurve::circle(0, 0.3)};
+    const MixedExtremalMap mixed = mixed_extremal_map(source, conditions);
+    expect_sound(mixed);
+    ExtremalOptions options;
+    options.space = ExtremalOptions::Space::laurent;
+    const ExtremalMap onto =
+        extremal_map(source, target_domain(TargetCurve::circle(0, 1), {TargetCurve::circle(0, 0.3)}), options);
+    EXPECT_EQ(mixed.dimension, 1);
+    EXPECT_NEAR(mixed.k, onto.k, 1e-7);
+}
+
+/// With everything prescribed it is the problem of extremal_map.h.
+TEST(Mixed, IsThePrescribedProblemWhereAllIsPrescribed) {
+    const Surface source(disk(12));
+    const Eigen::VectorXcd z = planar_coordinates(source.mesh);
+    MixedConditions conditions;
+    conditions.curves.resize(1);
+    for (const int v : source.topology.boundary_loops[0]) {
+        const Complex g = z[v] + 0.3 * z[v] * z[v];
+        conditions.prescribed.pin(v, std::exp(0.6 * (g + 0.5 * std::conj(g))));
+    }
+    const MixedExtremalMap mixed = mixed_extremal_map(source, conditions);
+    expect_sound(mixed);
+    const ExtremalMap prescribed = extremal_map(source, conditions.prescribed);
+    EXPECT_NEAR(mixed.k, prescribed.k, 1e-4);
+}
+
+TEST(Mixed, RefusesWhatIsNotSaidAndWhatCannotBe) {
+    const MixedProblemCase problem = bench::two_prescribed_arcs(0.2, false, false);
+    const Surface source(problem.mesh);
+    const auto refused = [&](MixedConditions conditions, Cause cause) {
+        try {
+            mixed_extremal_map(source, conditions);
+            ADD_FAILURE() << "not refused";
+        } catch (const Error& error) {
+            EXPECT_EQ(error.cause(), cause) << error.what();
+        }
+    };
+    MixedConditions conditions = problem.conditions;
+    conditions.curves = {std::nullopt};
+    refused(conditions, Cause::bad_boundary);
+    conditions.curves.clear();
+    refused(conditions, Cause::bad_option);
+    conditions = problem.conditions;
+    conditions.arcs = {{0, source.mesh.vertex_count()}};
+    refused(conditions, Cause::bad_boundary);
+    conditions = problem.conditions;
+    conditions.curves = {TargetCurve::circle(0, 1.1)};  // the ends of arcs are off it
+    refused(conditions, Cause::bad_boundary);
+    conditions = problem.conditions;
+    for (Complex& image : conditions.prescribed.images) image = std::conj(image);  // the wrong way round
+    refused(conditions, Cause::bad_boundary);
+    conditions = problem.conditions;
+    conditions.outer_loop = 1;
+    EXPECT_THROW(mixed_extremal_map(source, conditions), Error);
+}
+
+}  // namespace
+}  // namespace beltrami
