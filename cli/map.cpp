@@ -45,6 +45,12 @@ class Map final : public Command {
                         "cannot be had; the map stays on SOURCE's mesh")
             ->check(CLI::PositiveNumber)
             ->type_name("P");
+        app->add_option("--slack", slack_,
+                        "boundary points may move by up to S edges along the target, by which K falls where the "
+                        "outline of a scan is noisy; 0: not at all")
+            ->check(CLI::NonNegativeNumber)
+            ->type_name("S")
+            ->capture_default_str();
         boundary_.add_to(*app);
         onto_.add_to(*app, OntoTarget::Kinds::prescribed_too);
         homotopy_.add_to(*app);
@@ -165,6 +171,7 @@ class Map final : public Command {
         };
         refuse(boundary_.given(), "--boundary, --hole or --pin");
         refuse(certify_.has_value(), "--certify");
+        refuse(slack_ > 0, "--slack");
         refuse(minimize_ != "K", "--minimize");
         for (const std::string& other : compare_) refuse(!slides(other), "--compare " + other);
         refuse(method_ != "extremal", "--method " + method_);
@@ -210,6 +217,11 @@ class Map final : public Command {
         if (certify_ && minimize_ == "max")
             throw Error(Cause::bad_option, "--certify is about the extremal map, not about --minimize max",
                         "leave one of them out");
+        if (slack_ > 0 && (certify_ || minimize_ == "max" || method_ != "extremal"))
+            throw Error(Cause::bad_option,
+                        "--slack belongs to the extremal map; with --certify, --minimize max and the other methods the "
+                        "boundary values stay as they are",
+                        "leave one of them out");
         if (method_ == "extremal") return;
         if (certify_) throw Error(Cause::bad_option, "--certify belongs to --method extremal");
         if (start_map_.given())
@@ -239,6 +251,7 @@ class Map final : public Command {
             constraints.correspondence.outer_loop = boundary_.outer_loop();
             homotopy_.apply(source, constraints.correspondence);
             ExtremalOptions options;
+            options.slack = slack_;
             options.start = start_map_.load(source.mesh, record.warnings);
             const int free = free_parts(source, boundary);
             if (free > 0) {
@@ -299,6 +312,7 @@ class Map final : public Command {
 
     std::string source_, method_ = "extremal", minimize_ = "K";
     std::optional<double> certify_;
+    double slack_ = 0;
     std::vector<std::string> compare_;
     OutputOptions output_;
     BoundaryOptions boundary_;

@@ -41,6 +41,7 @@ void append(std::vector<std::string>& warnings, const std::vector<std::string>& 
 void record_findings(const ExtremalMap& result, const Surface& source, Record& record) {
     if (!result.homotopy.holes.empty()) record.homotopy = result.homotopy;
     record.corners = corners_record(result);
+    record.outline = {result.in_chart, result.slack, result.noise};
     if (result.split) record.split = split_record(*result.split, source.mesh.vertex_count());
     append(record.warnings, result.warnings);
 }

@@ -9,6 +9,8 @@ namespace {
 /// A chart with a larger |μ| says nothing about a sample. One face of that kind, at a reflex corner of the source, can
 /// hold most of ∫|φ|.
 constexpr double kMostDistorted = 0.5;
+/// See unseen_part().
+constexpr double kWithoutShape = 0.95;
 
 /// Shape functions of the bilinear element at its four Gauss points: corner j at point q.
 double bilinear_shape(int q, int j) {
@@ -30,6 +32,22 @@ Eigen::VectorXcd at_samples(const Operators& operators, const Eigen::VectorXcd& 
         result[s] = sum;
     }
     return result;
+}
+
+bool unseen(const Operators& operators, int sample, const Chart& chart) {
+    const auto [dz, dzbar] = operators.derivatives(sample, chart.vertices);
+    return !(std::abs(dzbar) < kWithoutShape * std::abs(dz));
+}
+
+double unseen_part(const Surface& source, const Chart& chart) {
+    double all = 0, lost = 0;
+    for (int s = 0; s < source.operators.sample_count(); ++s) {
+        const auto [dz, dzbar] = source.operators.derivatives(s, chart.vertices);
+        const double area = source.operators.weights[s] * std::abs(std::norm(dz) - std::norm(dzbar));
+        all += area;
+        if (unseen(source.operators, s, chart)) lost += area;
+    }
+    return lost / all;
 }
 
 Eigen::VectorXd vertex_areas(const Operators& operators) {

@@ -39,6 +39,12 @@ struct Chart {
 /// The chart whose vertex positions are @p vertices: derivatives, positions at the samples, excluded samples.
 Chart make_chart(const Surface& source, Eigen::VectorXcd vertices, bool exact);
 
+/// The part of the chart's area in samples that it turns over, or so distorts that their shape there is none: |μ| ≥
+/// .95.
+double unseen_part(const Surface& source, const Chart& chart);
+/// Whether it does so to a sample.
+bool unseen(const Operators& operators, int sample, const Chart& chart);
+
 /// Values at the samples of a function given at the vertices: linear on triangles, bilinear on quads.
 Eigen::VectorXcd at_samples(const Operators& operators, const Eigen::VectorXcd& values);
 

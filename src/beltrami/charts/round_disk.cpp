@@ -6,6 +6,7 @@
 #include <optional>
 
 #include <beltrami/charts/greens_function.h>
+#include <beltrami/charts/vertex_source.h>
 #include <beltrami/mesh/planar.h>
 #include <beltrami/plane/circle_fit.h>
 #include <beltrami/solve/dirichlet_solver.h>
@@ -172,6 +173,13 @@ Chart compute_chart(const Surface& source, const BeltramiSolver* dirichlet, cons
     if (chart.excluded_faces > 0)
         if (Chart other = chart_by(ConjugateBy::system); other.excluded_faces < chart.excluded_faces)
             chart = std::move(other);
+    if (chart.excluded_faces > 0 && source.mesh.faces.corner_count() == 3 * source.mesh.face_count())
+        if (auto g = disk_map_by_vertex_source(source, &factorizations)) {
+            centre_in_disk(*g, areas);
+            if (Chart other = make_chart(source, std::move(*g), false);
+                unseen_part(source, other) < unseen_part(source, chart))
+                chart = std::move(other);
+        }
     if (options.sliding_steps > 0) {
         slide(source, chart.vertices, options, &factorizations);
         chart = make_chart(source, std::move(chart.vertices), false);

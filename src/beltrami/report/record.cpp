@@ -158,6 +158,23 @@ Json to_object(const GridRecord& grid) {
               {"area_ratio", number(quality.area_ratio)}}}};
 }
 
+void add_outline(const OutlineRecord& outline, Json& json) {
+    if (const auto& chart = outline.in_chart)
+        json["chart"] = {{"mu_mean", number(chart->chart_mean)},
+                         {"degree", chart->degree},
+                         {"map_mean", number(chart->mean)},
+                         {"map_std", number(chart->standard_deviation)}};
+    if (const auto& slack = outline.slack)
+        json["slack"] = {{"edges", number(slack->slack)},
+                         {"largest_move", number(slack->largest_move)},
+                         {"energy_before", number(slack->energy_before)},
+                         {"energy_after", number(slack->energy_after)},
+                         {"K_without", number(slack->K_without)}};
+    if (const auto& noise = outline.noise)
+        json["noise"] = {
+            {"edges", number(noise->slack)}, {"K", number(noise->K)}, {"energy_ratio", number(noise->energy_ratio)}};
+}
+
 Json to_rows(const Eigen::MatrixXd& matrix) {
     Json rows = Json::array();
     for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
@@ -360,6 +377,7 @@ std::string to_json(const Record& record) {
     if (record.solve) json["solve"] = to_object(*record.solve);
     if (record.homotopy) json["homotopy"] = to_object(*record.homotopy);
     if (record.corners) json["corners"] = to_object(*record.corners);
+    add_outline(record.outline, json);
     if (record.split) json["split"] = {{"edges", record.split->edges}, {"added", record.split->added}};
     if (record.certificate)
         json["certificate"] = {{"wanted", number(record.certificate->wanted)},
@@ -426,6 +444,16 @@ std::string to_remarks(const Record& record) {
                                 corners.sharpest->vertex, corners.sharpest->safe_bound);
         text += "\n";
     }
+    if (const auto& slack = record.outline.slack)
+        text += fmt::format(
+            "boundary points have moved by at most {:.2f} edges along the target (slack {:g}); as they were given K "
+            "would be about {:.2f}\n",
+            slack->largest_move, slack->slack, slack->K_without);
+    if (const auto& noise = record.outline.noise; noise && record.map && record.map->K)
+        text += fmt::format(
+            "the outline's noise costs: moving points by at most half an edge (--slack {:g}) would give K about {:.2f} "
+            "instead of {:.2f}\n",
+            noise->slack, noise->K, *record.map->K);
     if (record.certificate)
         text += fmt::format("certificate of {:.3g} %: {}; {} ({} {})\n", 100 * record.certificate->wanted,
                             record.certificate->reached ? "reached" : "not reached", record.certificate->reason,

@@ -53,6 +53,13 @@ struct CornersRecord {
     std::optional<BoundaryCorner> sharpest;  ///< the one with the largest safe_bound above 1
 };
 
+/// What the plane of the chart, moved boundary points and the noise of the outline have to do with the map.
+struct OutlineRecord {
+    std::optional<InChart> in_chart;
+    std::optional<SlackReport> slack;
+    std::optional<NoiseCost> noise;
+};
+
 /// The mesh that was mapped, where edges of the source had to be split.
 struct SplitRecord {
     int edges = 0;
@@ -134,6 +141,7 @@ struct Record {
     std::optional<SolveRecord> solve;
     std::optional<HomotopyClass> homotopy;  ///< of the map, where there are holes
     std::optional<CornersRecord> corners;
+    OutlineRecord outline;
     std::optional<SplitRecord> split;
     std::optional<CertificateRecord> certificate;
     std::optional<LeastMaximumRecord> least_maximum;

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include <beltrami/charts/round_disk.h>
-#include <beltrami/differentials/polynomial_space.h>
 #include <beltrami/generate/round_domains.h>
 #include <beltrami/teichmuller/problem.h>
 
@@ -19,6 +18,9 @@ constexpr double kTwoPi = 2 * std::numbers::pi;
 constexpr double kTightPerTriangle = 2;
 /// Triangles of the coarse mesh: a part of the samples, within limits.
 constexpr int kCoarsePart = 7, kFewestTriangles = 1'200, kMostTriangles = 5'000;
+
+/// The iteration ends there at this part of its bracket: a start need not be exact.
+constexpr double kWithinBracket = 0.01;
 
 /// The prescribed values along the canonical circle.
 struct CircleValues {
@@ -55,7 +57,7 @@ CircleValues circle_values(const Surface& source, const BoundaryCondition& bound
 }  // namespace
 
 CoarseStart coarse_start(const Surface& source, const BoundaryCondition& boundary, const Chart& chart, double phase,
-                         const ExtremalOptions& options, int least_samples) {
+                         int largest_degree, const ExtremalOptions& options, int least_samples) {
     if (source.operators.sample_count() < least_samples) return {};
     const CircleValues values = circle_values(source, boundary, chart);
     if (values.angle.empty()) return {};
@@ -80,12 +82,12 @@ CoarseStart coarse_start(const Surface& source, const BoundaryCondition& boundar
     HamiltonIteration::Options coarse_options = iteration_options(options);
     coarse_options.progress = {};
     coarse_options.grow_last = false;
+    coarse_options.within_bracket = kWithinBracket;
     problem.map_step().set_near(false);
     HamiltonIteration iteration(problem.map_step(), problem.coefficient_step(), coarse_options);
     CoarseStart result;
     // The degrees that the fine mesh resolves: on the coarse one the highest are rough, which is good enough for a
     // start.
-    const int largest_degree = PolynomialSpace::largest_degree(source.operators.sample_count());
     iteration.run(result.state, problem.starting_space(largest_degree));
     result.tight =
         iteration.converged() && bracket(iteration.last_step()) * model.mesh.face_count() < kTightPerTriangle;

@@ -17,9 +17,10 @@ constexpr int kCoarseStartPays = 6'000;
 /// A start for the iteration on a large mesh: the same problem solved on a coarse mesh of the canonical domain, by
 /// polynomials. φ and k do not depend on the mesh, so they carry over as they are, and the fine mesh sees few
 /// factorisations.
+/// @param largest_degree that the mesh resolves
 /// @param least_samples a mesh of fewer is small
 /// @return none if the mesh is small, or its boundary does not run monotonically around the canonical disk
 CoarseStart coarse_start(const Surface& source, const BoundaryCondition& boundary, const Chart& chart, double phase,
-                         const ExtremalOptions& options, int least_samples = kCoarseStartPays);
+                         int largest_degree, const ExtremalOptions& options, int least_samples = kCoarseStartPays);
 
 }  // namespace beltrami

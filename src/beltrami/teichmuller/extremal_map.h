@@ -29,6 +29,27 @@ struct ExtremalPiece {
     Termination termination = Termination::converged;
 };
 
+/// The map as the metric of the iteration saw it, where that was the plane of the chart (chart_metric.h).
+struct InChart {
+    double chart_mean = 0;                    ///< mean |μ| of the chart itself on the surface
+    double mean = 0, standard_deviation = 0;  ///< of |μ| of the map in the plane of the chart, by area there
+    int degree = 0;                           ///< the largest degree of φ that mesh and rim resolve
+};
+
+/// What moving the boundary points has come to.
+struct SlackReport {
+    double slack = 0, largest_move = 0;          ///< in edges
+    double energy_before = 0, energy_after = 0;  ///< of boundary_slack.h
+    double K_without = 1;  ///< an estimate of K with the boundary values as they were given, by one step
+};
+
+/// What the noise of the outline costs, where it costs much.
+struct NoiseCost {
+    double slack = 0;         ///< if points moved by so many edges ...
+    double K = 1;             ///< ... about this K were enough: an estimate by one step
+    double energy_ratio = 1;  ///< E of boundary_slack.h at half that slack over E of the values as they are
+};
+
 /// The map of least dilatation among all that obey the constraints (of the same homotopy class), and how good it is.
 ///
 /// Where edges had to be split, #V, #F and #S below are those of the split mesh.
@@ -50,7 +71,10 @@ struct ExtremalMap : MapResult {
     /// The corner with the largest bound on K (of the limiting smooth data, noise discounted), if there is one.
     std::optional<BoundaryCorner> sharpest;
     double boundary_residual = 0;  ///< largest distance of a prescribed or marked vertex from its image
-    bool evened = false;           ///< |μ| was evened out after the iteration
+    std::optional<InChart> in_chart;
+    std::optional<SlackReport> slack;
+    std::optional<NoiseCost> noise;  ///< of a disk in space, without slack
+    bool evened = false;             ///< |μ| was evened out after the iteration
     bool folds_removed = false;  ///< the iteration left flipped faces, which a fold-free solve with its φ and k removed
     /// Where pinned curves cut the surface: its pieces, by their first faces. The map is the extremal one of each, φ is
     /// one of each, and K, k and the bounds are the largest of theirs; history is that of the piece with the largest K.
@@ -77,8 +101,9 @@ struct ExtremalMap : MapResult {
 
 /// The extremal quasiconformal (Teichmüller) map under constraints, by Hamilton's iteration with Anderson acceleration:
 /// the c-step (dual_step.h) finds the quadratic differential φ and k of the present map, the f-step (map_step.h) the
-/// map with coefficient k conj(φ)/|φ|. The metric of the source stays in ∂ and ∂̄; a conformal chart of a canonical
-/// domain only serves to write φ down.
+/// map with coefficient k conj(φ)/|φ|. A conformal chart of a canonical domain serves to write φ down; the metric of ∂
+/// and ∂̄ is the source's, or for a disk in space that of the chart's plane: k and the bounds are then those of the
+/// plane, distortion and K_max those of the surface.
 ///
 /// Prescribed boundary values: Weber, Myles & Zorin 2012 solve the same problem by alternating least squares; here φ is
 /// holomorphic by construction and k is found from pairings, which are blind to the noise at the zeros of φ. Every

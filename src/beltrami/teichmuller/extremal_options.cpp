@@ -22,6 +22,7 @@ void ExtremalOptions::validate() const {
     };
     demand(growth > 0, "growth must be positive");
     demand(cluster_count >= 100, "cluster_count must be at least 100");
+    demand(slack >= 0 && std::isfinite(slack), "slack must be finite and not negative");
     demand(target_edge_length >= 0 && std::isfinite(target_edge_length),
            "the target's edge length must be positive, or 0");
     for (const double turn : start_turns) demand(std::isfinite(turn), "a start turn is not a number");

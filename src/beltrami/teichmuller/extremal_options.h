@@ -28,6 +28,12 @@ struct ExtremalOptions : IterationOptions {
     /// Even |μ| out after the iteration (even_dilatation.h): where the map is still far from |μ| = k, always or never.
     enum class Evening { where_needed, always, never };
     Evening evening = Evening::where_needed;
+    /// A disk in space is solved in the plane of its chart (chart_metric.h) and measured on the surface; false: in the
+    /// surface's own metric.
+    bool chart_metric = true;
+    /// Boundary points of a disk may move along the target by so many edges (boundary_slack.h), where the outline is
+    /// not known better.
+    double slack = 0;
     bool remove_folds = true;  ///< finish with a fold-free solve where faces are flipped
     /// Midpoint subdivisions of the mesh for a bound by piecewise quadratic maps (sharpened_bound.h), which is far
     /// better where K is large or the mesh coarse. Empty: 0 from k = .8 on, and on meshes of up to 10⁵

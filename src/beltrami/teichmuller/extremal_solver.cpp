@@ -3,17 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 
 #include <beltrami/base/error.h>
 #include <beltrami/certificate/solution_bounds.h>
 #include <beltrami/constraints/boundary_feasibility.h>
-#include <beltrami/differentials/polynomial_space.h>
 #include <beltrami/evening/even_dilatation.h>
 #include <beltrami/homotopy/continuation.h>
 #include <beltrami/homotopy/twist.h>
 #include <beltrami/mesh/planar.h>
 #include <beltrami/mesh/subdivide.h>
+#include <beltrami/teichmuller/boundary_slack.h>
 #include <beltrami/teichmuller/coarse_start.h>
 #include <beltrami/teichmuller/piecewise_solver.h>
 #include <beltrami/teichmuller/prepared_problem.h>
@@ -56,12 +57,25 @@ constexpr double kRoughRounding = 0.005, kRoughStep = 0.05;
 /// Newton step, as part of the whole, to which the c-step is solved after the iteration.
 constexpr double kFinishingStep = 2e-3;
 constexpr int kFinishingSteps = 20;
-/// Distance from the unit circle of a chart's vertex that lies on it.
-constexpr double kRound = 1e-3;
 /// Width of the bracket, as part of K, from which on poles that were thought needless are needed.
 constexpr double kPolesNeeded = 0.01;
 /// Merits that differ by less, as part of them, do not tell which of two bounds is the larger one.
 constexpr double kCloseMerit = 0.01;
+/// In the plane of a chart the iteration ends once it moves by less than this part of the bracket.
+constexpr double kWithinBracket = 0.01;
+/// The bracket of a smooth problem, as part of K, times the number of samples, is smaller (a bump's .7).
+constexpr double kTightPerSample = 4;
+/// From here on coefficients of faces are too noisy for K even there.
+constexpr double kLargeCoefficient = 0.8;
+/// The outline of a disk in space with so many vertices is noisy where half of this slack leaves less than this part of
+/// the energy (of smooth values .94 and more, of scans .23 to .8, of planted noise of a fifth of an edge .15).
+constexpr double kNoiseSlack = 0.5, kNoisyRatio = 0.6;
+constexpr std::size_t kNoisyRim = 60;
+/// Of the map of which K is estimated with other boundary values.
+constexpr double kEstimateTolerance = 1e-4;
+/// A corner is clear from this significance on (those of scans have 1 to 2.5), and where the image turns by so much
+/// (radians).
+constexpr double kClearCorner = 3, kSharpImage = 0.35;
 /// Directions of held vertices that turn by less (radians) are kept, and they are followed so often.
 constexpr double kTurned = 0.02;
 constexpr int kMostTurns = 4;
@@ -106,7 +120,10 @@ struct ExtremalSolver::Implementation {
     int earlier_iterations = 0;             // from a start that was given up
     bool smooth = true;                     // φ has no singularities
     std::optional<Singularities> withheld;  // that φ may have but need not
-    std::optional<Chart> instead;           // for φ that needs those
+    std::optional<SlackReport> slack;
+    BoundaryCondition given_boundary;  // where there is slack
+    std::optional<NoiseCost> noise;
+    std::optional<Chart> instead;  // for φ that needs those
     bool evened = false, folds_removed = false;
 
     Implementation(const Surface& given, const Constraints& c, const ExtremalOptions& o, PreparedProblem p)
@@ -120,13 +137,16 @@ struct ExtremalSolver::Implementation {
         corners = find_corners(source, boundary);
         ProblemChart charts = chart_of_problem(source, boundary, corners, wanted.outer_loop, problem.solver());
         instead = std::move(charts.instead);
+        other_factorizations += charts.chart.factorizations;
+        warnings.insert(warnings.end(), charts.chart.warnings.begin(), charts.chart.warnings.end());
+        if (options.slack > 0) take_slack(charts.chart);
         Singularities singularities = take_chart(std::move(charts.chart), problem.harmonic());
         // Corners that only a fine mesh would resolve need no poles; that they do not, the coarse problem shows. In a
         // chart far from conformal poles at corners would see its errors as dilatation.
         if ((singularities.only_corners() || (instead && singularities.empty())) && has_plain_start() &&
-            outline_is_round()) {
-            CoarseStart coarse = coarse_start(source, boundary, problem.chart(), problem.phase(), options,
-                                              instead ? 0 : kCoarseStartPays);
+            problem.chart_is_round()) {
+            CoarseStart coarse = coarse_start(source, boundary, problem.chart(), problem.phase(),
+                                              problem.largest_degree(), options, instead ? 0 : kCoarseStartPays);
             if (coarse.tight) {
                 smooth = true;
                 state = std::move(coarse.state);
@@ -135,19 +155,66 @@ struct ExtremalSolver::Implementation {
             }
         }
         if (instead && !withheld) singularities = take_instead(problem.harmonic());
-        other_factorizations += problem.chart().factorizations;
-        warnings.insert(warnings.end(), problem.chart().warnings.begin(), problem.chart().warnings.end());
         problem.set_singularities(std::move(singularities), options.cluster_count);
         if (source.topology.boundary_loops.size() > 1)
             paths = loop_paths(source, problem.chart().vertices, wanted.outer_loop);
         choose_start();
     }
 
+    /// Moves the boundary points as far as they may.
+    void take_slack(const Chart& chart) {
+        SlackBoundary slackened = slacken(source, chart, boundary, options.slack);
+        slack = SlackReport{options.slack, slackened.largest_move, slackened.energy_before, slackened.energy_after, 1};
+        given_boundary = std::move(boundary);
+        boundary = std::move(slackened.boundary);
+        problem.set_boundary(boundary);
+        corners = find_corners(source, boundary);
+    }
+
+    /// K of other boundary values, by one f-step with the φ and k at hand and one c-step.
+    double estimate_with(const BoundaryCondition& other) {
+        Eigen::VectorXcd moved = map;
+        prescribe(moved, other);
+        moved = problem.solver().solve_near(
+            problem.coefficient_on_source(problem.coefficient_step().coefficient(step.k, step.phi)), moved, moved,
+            kEstimateTolerance);
+        const CoefficientStep::Result one =
+            problem.coefficient_step().solve(coefficient_of(moved), step.direction, kFinishingStep, kFinishingSteps);
+        return (1 + one.k) / (1 - one.k);
+    }
+
+    /// What the noise of the outline costs, or what slack has gained.
+    void compare_outlines() {
+        noise.reset();
+        if (slack) slack->K_without = estimate_with(given_boundary);
+        const auto& loops = source.topology.boundary_loops;
+        if (slack || !problem.chart_metric() || loops[0].size() < kNoisyRim) return;
+        try {
+            const SlackBoundary quarter = slacken(source, problem.chart(), boundary, 0.5 * kNoiseSlack);
+            const double ratio = quarter.energy_after / quarter.energy_before;
+            if (!(ratio < kNoisyRatio)) return;
+            const SlackBoundary half = slacken(source, problem.chart(), boundary, kNoiseSlack);
+            noise = NoiseCost{kNoiseSlack, estimate_with(half.boundary), ratio};
+        } catch (const Error& error) {  // the boundary values do not run forward: nothing is said about noise
+            if (error.cause() != Cause::bad_boundary && error.cause() != Cause::bad_option) throw;
+        }
+    }
+
+    /// Whether no corner is more than what the outline of a scan has everywhere. In the plane of the chart φ then needs
+    /// no poles: they would be fitted to single edges.
+    bool corners_are_noise() const {
+        return std::none_of(corners.begin(), corners.end(), [](const BoundaryCorner& corner) {
+            return corner.significance > kClearCorner || std::abs(corner.image_angle - std::numbers::pi) > kSharpImage;
+        });
+    }
+
     /// Makes a chart that of the problem; returns where φ may be singular in it.
     Singularities take_chart(Chart chart, const Eigen::VectorXcd& at) {
         Singularities result = singularities_of(source, chart, boundary, corners, at);
+        const bool plain = options.chart_metric && (result.empty() || result.only_corners()) && corners_are_noise();
         held_alone = held_vertices(source, chart, boundary, at);
         problem.set_chart(std::move(chart));
+        if (plain && problem.take_chart_metric()) result = {};
         smooth = result.empty();
         return result;
     }
@@ -181,17 +248,10 @@ struct ExtremalSolver::Implementation {
         } else if (!wanted.turns.empty()) {
             map = start_in_class(source, problem.chart().vertices, wanted.outer_loop, boundary, wanted.turns).map;
         } else if (smooth && !state.space) {
-            state = coarse_start(source, boundary, problem.chart(), problem.phase(), options).state;
+            state = coarse_start(source, boundary, problem.chart(), problem.phase(), problem.largest_degree(), options)
+                        .state;
         }
         start = state.space ? Eigen::VectorXcd() : map;
-    }
-
-    /// Whether the chart is that of the round disk.
-    bool outline_is_round() const {
-        if (source.topology.boundary_loops.size() != 1) return false;
-        const auto& loop = source.topology.boundary_loops[0];
-        return std::all_of(loop.begin(), loop.end(),
-                           [&](int v) { return std::abs(std::abs(problem.chart().vertices[v]) - 1) < kRound; });
     }
 
     bool has_plain_start() const { return !options.start && !wanted.waypoints && wanted.turns.empty(); }
@@ -216,15 +276,22 @@ struct ExtremalSolver::Implementation {
         }
     }
 
+    /// The options as they are in the metric of the iteration.
+    HamiltonIteration::Options adapted(HamiltonIteration::Options how) const {
+        if (problem.chart_metric()) {
+            how.within_bracket = kWithinBracket;
+            how.tight = kTightPerSample / source.operators.sample_count();
+        }
+        return how;
+    }
+
     /// Runs the iteration from where it stands.
     void iterate_once(const HamiltonIteration::Options& how) {
         problem.map_step().set_near(state.space && problem.solver().factorization_count() > 1);
         problem.map_step().set_map(map);
-        HamiltonIteration iteration(problem.map_step(), problem.coefficient_step(), how);
+        HamiltonIteration iteration(problem.step_in_domain(), problem.coefficient_step(), adapted(how));
         // Only a run from nothing needs a space to begin with, and its basis is costly.
-        iteration.run(state, state.space ? nullptr
-                                         : problem.starting_space(
-                                               PolynomialSpace::largest_degree(source.operators.sample_count())));
+        iteration.run(state, state.space ? nullptr : problem.starting_space(problem.largest_degree()));
         map = problem.map_step().map();
         step = iteration.last_step();
         converged = iteration.converged();
@@ -233,14 +300,20 @@ struct ExtremalSolver::Implementation {
         history.insert(history.end(), steps.begin() + (history.empty() ? 0 : 1), steps.end());
     }
 
+    /// μ of a map in the metric of the iteration.
+    Eigen::VectorXcd coefficient_of(const Eigen::VectorXcd& of) const {
+        return beltrami_coefficient(problem.domain().operators, of);
+    }
+
     bool folded() const { return folded_samples(beltrami_coefficient(source.operators, map)) > 0; }
 
     /// Whether the map is far from |μ| = k, or folded.
     bool uneven() const {
-        const Eigen::VectorXcd mu = beltrami_coefficient(source.operators, map);
+        const Eigen::VectorXcd mu = coefficient_of(map);
+        if (problem.chart_metric()) return folded_samples(mu) > 0;
         const double part = problem.singular() ? kUnevenAtSingularities : kUneven;
         return folded_samples(mu) > 0 ||
-               deviation(source.operators, mu, step.phi, step.k) > std::max(kUnevenAtAll, part * step.k);
+               deviation(problem.domain().operators, mu, step.phi, step.k) > std::max(kUnevenAtAll, part * step.k);
     }
 
     /// What vertices may do after the iteration: those on lines stay where they are.
@@ -254,13 +327,14 @@ struct ExtremalSolver::Implementation {
     bool even_out() {
         if (!folded()) before_evening = {map, step};
         const auto update = [&](const Eigen::VectorXcd& at, Eigen::VectorXcd& phi, double& k) {
-            step = problem.coefficient_step().solve(beltrami_coefficient(source.operators, at), step.direction,
-                                                    kFinishingStep, kFinishingSteps);
-            phi = step.phi;
+            step =
+                problem.coefficient_step().solve(coefficient_of(at), step.direction, kFinishingStep, kFinishingSteps);
+            phi = problem.differential_on_source(step.phi);
             k = step.k;
             return true;
         };
-        EvenDilatation even = even_dilatation(source, held(), map, step.k, step.phi, update);
+        EvenDilatation even =
+            even_dilatation(source, held(), map, step.k, problem.differential_on_source(step.phi), update);
         other_factorizations += even.factorizations;
         if (!even.improved) return false;
         map = std::move(even.map);
@@ -269,7 +343,8 @@ struct ExtremalSolver::Implementation {
 
     /// Opens what folds are left.
     bool remove_folds() {
-        const FoldFreeMap opened = fold_free_map(source, held(), teichmueller_coefficient(step.k, step.phi), map);
+        const FoldFreeMap opened = fold_free_map(
+            source, held(), problem.coefficient_on_source(teichmueller_coefficient(step.k, step.phi)), map);
         other_factorizations += opened.factorizations;
         if (opened.fold_free) map = opened.map;
         return opened.fold_free;
@@ -277,19 +352,19 @@ struct ExtremalSolver::Implementation {
 
     /// The c-step of a map that came after the iteration.
     void update_coefficient() {
-        step = problem.coefficient_step().solve(beltrami_coefficient(source.operators, map), step.direction,
-                                                kFinishingStep);
+        step = problem.coefficient_step().solve(coefficient_of(map), step.direction, kFinishingStep);
     }
 
     ReichStrebel integrals_of(const Distortion& distortion, const CoefficientStep::Result& with) const {
-        return reich_strebel(source, problem.chart(), *state.space, with.direction, distortion.mu);
+        return reich_strebel(problem.domain(), problem.chart(), *state.space, with.direction, distortion.mu);
     }
 
     SolutionBounds bounds_of(const Eigen::VectorXcd& of, const CoefficientStep::Result& with,
                              const Distortion& distortion, const ReichStrebel& integrals) const {
-        return solution_bounds({source, boundary, problem.chart(), *state.space, with.direction, with.phi, with.k, of,
-                                distortion, integrals, paths, wanted.outer_loop, wanted.turns},
-                               options.sharpen);
+        return solution_bounds(
+            {problem.domain(), boundary, problem.chart(), *state.space, with.direction, with.phi, with.k, of,
+             distortion, integrals, paths, wanted.outer_loop, wanted.turns},
+            problem.chart_metric() && !options.sharpen && with.k < kLargeCoefficient ? -1 : options.sharpen);
     }
 
     /// Of the map, or of the one before it was evened out: evening makes the bounds, as a rule, a little worse.
@@ -297,7 +372,7 @@ struct ExtremalSolver::Implementation {
         if (!before_evening || before_evening->step.merit < (1 - kCloseMerit) * step.merit)
             return bounds_of(map, step, measured, integrals_of(measured, step));
         const auto& [earlier_map, earlier_step] = *before_evening;
-        const Distortion earlier = distortion(source.operators, earlier_map);
+        const Distortion earlier = distortion(problem.domain().operators, earlier_map);
         const ReichStrebel earlier_integrals = integrals_of(earlier, earlier_step);
         if (earlier_integrals.valid && earlier_step.merit > (1 + kCloseMerit) * step.merit)
             return bounds_of(earlier_map, earlier_step, earlier, earlier_integrals);
@@ -393,6 +468,7 @@ ExtremalMap ExtremalSolver::solve() {
     m.earlier_iterations = 0;
     m.run();
     if (m.options.start && m.folded()) m.start_again();
+    m.compare_outlines();
     ExtremalMap result = m.record();
     m.before_evening.reset();
     return result;
@@ -444,6 +520,8 @@ ExtremalMap ExtremalSolver::Implementation::record() const {
     result.factorizations = other_factorizations + problem.solver().factorization_count();
     result.termination = converged ? Termination::converged : Termination::iteration_limit;
     result.split = prepared.split;
+    result.slack = slack;
+    result.noise = noise;
     if (!paths.empty()) {
         result.homotopy = homotopy_class(source, paths, map, wanted.outer_loop);
         if (!wanted.turns.empty())
@@ -455,13 +533,19 @@ ExtremalMap ExtremalSolver::Implementation::record() const {
                                               "; the mesh is too coarse to hold them");
     }
     result.distortion = distortion(operators, map);
-    result.phi = step.phi;
+    result.phi = problem.differential_on_source(step.phi);
     for (std::size_t i = 0; i < boundary.vertices.size(); ++i)
         result.boundary_residual =
             std::max(result.boundary_residual, std::abs(map[boundary.vertices[i]] - boundary.images[i]));
 
     result.K_max = largest_dilatation(result.distortion);
-    const SolutionBounds bounds = best_bounds(result.distortion);
+    std::optional<Distortion> in_chart;
+    if (const ChartMetric* metric = problem.chart_metric()) {
+        in_chart = distortion(metric->plane().operators, map);
+        result.in_chart =
+            InChart{metric->chart_mean(), in_chart->mean, in_chart->standard_deviation, problem.largest_degree()};
+    }
+    const SolutionBounds bounds = best_bounds(in_chart ? *in_chart : result.distortion);
     result.K = std::min(bounds.K, result.K_max);
     result.k = (result.K - 1) / (result.K + 1);
     result.K_lower = bounds.K_lower;

@@ -25,6 +25,8 @@ constexpr int kQuietFor = 6;
 constexpr int kPreliminaryIterations = 2;
 /// Newton step, as part of the whole, to which the first c-step with poles at corners is solved.
 constexpr double kFirstStep = 0.15;
+/// A c-step from nothing is solved to this change, where the bracket says what is worth while.
+constexpr double kFirstStepWithin = 0.1;
 /// Newton steps allowed in a c-step.
 constexpr int kNewtonSteps = 40;
 /// A larger space has so many steps to settle, and may lower the bound by this part.
@@ -62,6 +64,15 @@ Eigen::VectorXcd teichmueller_coefficient(double k, const Eigen::VectorXcd& phi)
 HamiltonIteration::HamiltonIteration(MapStep& map_step, CoefficientStep& coefficient_step, Options options)
     : map_step_(map_step), coefficient_step_(coefficient_step), options_(std::move(options)) {}
 
+/// k is exact to the square of these.
+double HamiltonIteration::first_step() const {
+    return std::max(options_.tolerance, options_.within_bracket > 0 ? kFirstStepWithin : 0.0) *
+           options_.step_below_change;
+}
+double HamiltonIteration::growing_step() const {
+    return options_.within_bracket > 0 ? options_.step_below_change * kFirstStepWithin : 0.0;
+}
+
 /// Takes larger spaces while they raise k noticeably, or instead of a preliminary one; returns whether any did.
 bool HamiltonIteration::grow(HamiltonState& state, const Eigen::VectorXcd& mu) {
     bool grown = false;
@@ -73,7 +84,7 @@ bool HamiltonIteration::grow(HamiltonState& state, const Eigen::VectorXcd& mu) {
     }
     while (auto larger = state.space->refined()) {
         coefficient_step_.set_space(*larger);
-        CoefficientStep::Result more = coefficient_step_.solve(mu, step_.direction);
+        CoefficientStep::Result more = coefficient_step_.solve(mu, step_.direction, growing_step());
         if (!(more.k > step_.k * (1 + options_.growth))) {
             coefficient_step_.set_space(*state.space);
             break;
@@ -94,7 +105,7 @@ void HamiltonIteration::run(HamiltonState& state, std::unique_ptr<DifferentialSp
         state.space = std::move(smallest);
         coefficient_step_.set_space(*state.space);
         const Eigen::VectorXcd mu = beltrami_coefficient(map_step_.derivatives());
-        step_ = coefficient_step_.solve(mu, {}, options_.tolerance * options_.step_below_change);
+        step_ = coefficient_step_.solve(mu, {}, first_step());
         if (!state.space->preliminary()) grow(state, mu);
         state.direction = step_.direction;
         state.k = step_.k;
@@ -143,10 +154,12 @@ void HamiltonIteration::run(HamiltonState& state, std::unique_ptr<DifferentialSp
         const double gap = bracket(step_);
         quiet = change > kQuietAbove && k_change < kQuietChangeOfK ? quiet + 1 : 0;
         const bool undecided = quiet >= kQuietFor && gap < kQuietGap && !state.space->preliminary();
-        const bool settled =
-            undecided || (!state.space->preliminary() && step_.converged &&
-                          (stalled || (k_change < options_.k_tolerance &&
-                                       (change < options_.tolerance || step_.k < options_.k_tolerance))));
+        const bool within = gap > options_.tight && !state.space->preliminary() && change < kLargeChange &&
+                            std::max(change * change, k_change / step_.k) < options_.within_bracket * gap;
+        const bool settled = undecided || within ||
+                             (!state.space->preliminary() && step_.converged &&
+                              (stalled || (k_change < options_.k_tolerance &&
+                                           (change < options_.tolerance || step_.k < options_.k_tolerance))));
         // Growing is decided where the map is exact to rounding, which must not turn the decision: at the start
         // (above), at the first map that comes from another mesh's φ, and in the end.
         if ((from_elsewhere && options_.grow_first && iterations_ == 1) || (settled && options_.grow_last) ||

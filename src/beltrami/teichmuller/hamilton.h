@@ -32,6 +32,10 @@ class HamiltonIteration {
         int max_iterations = 60;
         /// The c-step is solved to this part of the change of φ in the last iteration.
         double step_below_change = 0.01;
+        /// All has settled too once the square of the change of φ and the part by which k changes are below this part
+        /// of the bracket, which no further steps would narrow; unless the bracket is below `tight`, that of smooth
+        /// data, for which k is wanted to all digits. 0: never.
+        double within_bracket = 0, tight = 0;
         double growth = 1e-5;
         int anderson_window = 5;
         /// When a larger space is tried, besides at a start from nothing: with the first map that comes from another
@@ -56,6 +60,8 @@ class HamiltonIteration {
     bool converged() const { return converged_; }
 
   private:
+    double first_step() const;
+    double growing_step() const;
     bool grow(HamiltonState& state, const Eigen::VectorXcd& mu);
 
     MapStep& map_step_;

@@ -28,6 +28,10 @@ PreparedProblem prepare(const Surface& source, const Constraints& constraints, c
     require_feasible(source, boundary, constraints.correspondence.outer_loop);
     if (options.start && constraints.correspondence.waypoints)
         throw Error(Cause::bad_option, "waypoints fix the homotopy class: give no start with them");
+    if (options.slack > 0 && (source.topology.boundary_loops.size() != 1 || !boundary.lines.empty() ||
+                              boundary.vertices.size() != source.topology.boundary_loops[0].size()))
+        throw Error(Cause::bad_option, "slack moves the boundary of a disk; here there are holes or points inside",
+                    "leave it at 0");
     if (options.start && options.start->size() != source.mesh.vertex_count())
         throw Error(Cause::bad_option, "the start has " + std::to_string(options.start->size()) + " values for " +
                                            std::to_string(source.mesh.vertex_count()) + " vertices");

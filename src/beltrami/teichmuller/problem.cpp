@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <tuple>
 
 #include <beltrami/constraints/inner_constraints.h>
@@ -28,6 +29,23 @@ constexpr int kSamplesPerFunction = 40;
 constexpr double kLeastCosine = 0.5, kFreePart = 0.5;
 /// A curve held to a line bends sharply where it turns by more than this (radians).
 constexpr double kSharpBend = 0.4;
+
+/// A function of degree d turns d times along the rim: so many edges for each turn, of the length that a place of the
+/// rim sees on average.
+constexpr double kEdgesPerTurn = 5;
+constexpr int kLeastDegree = 4;
+/// Distance from the unit circle of a chart's vertex that lies on it.
+constexpr double kRound = 1e-3;
+/// The plane of a chart is no metric where it turns over more of itself.
+constexpr double kMostUnseen = 1e-4;
+
+/// Whether the chart is that of a round disk.
+bool is_round(const Surface& source, const Chart& chart) {
+    if (source.topology.boundary_loops.size() != 1) return false;
+    const auto& loop = source.topology.boundary_loops[0];
+    return std::all_of(loop.begin(), loop.end(),
+                       [&](int v) { return std::abs(std::abs(chart.vertices[v]) - 1) < kRound; });
+}
 
 /// See ExtremalProblem::phase.
 double phase_of(const Chart& chart, const BoundaryCondition& boundary) {
@@ -86,18 +104,64 @@ ExtremalProblem::ExtremalProblem(const Surface& source, const BoundaryCondition&
     harmonic_ = map_step_.map();
 }
 
+void ExtremalProblem::set_boundary(const BoundaryCondition& boundary) {
+    boundary_ = boundary;
+    const Eigen::VectorXcd values = prescribed_values(boundary, source_);
+    map_step_.prescribe(values, line_directions(boundary, source_));
+    harmonic_ = solver_.solve(values);
+}
+
 void ExtremalProblem::set_chart(Chart chart) {
+    step_in_chart_.reset();
+    chart_metric_.reset();
     chart_ = std::move(chart);
     phase_ = phase_of(chart_, boundary_);
 }
 
+bool ExtremalProblem::take_chart_metric() {
+    if (source_.in_plane() || source_.topology.boundary_loops.size() != 1) return false;
+    if (!boundary_.lines.empty() || boundary_.vertices.size() != source_.topology.boundary_loops[0].size())
+        return false;
+    if (!is_round(source_, chart_) || !(unseen_part(source_, chart_) < kMostUnseen)) return false;
+    chart_metric_ = std::make_unique<ChartMetric>(source_, chart_);
+    chart_ = chart_metric_->chart();
+    step_in_chart_.emplace(map_step_, *chart_metric_);
+    return true;
+}
+
+MapStep& ExtremalProblem::step_in_domain() {
+    if (step_in_chart_) return *step_in_chart_;
+    return map_step_;
+}
+
+bool ExtremalProblem::chart_is_round() const {
+    return is_round(source_, chart_);
+}
+
+int ExtremalProblem::largest_degree() const {
+    const int of_mesh = PolynomialSpace::largest_degree(source_.operators.sample_count());
+    if (!is_round(source_, chart_)) return of_mesh;
+    double length = 0, squares = 0;
+    const auto& rim = source_.topology.boundary_loops[0];
+    for (std::size_t i = 0; i < rim.size(); ++i) {
+        const double edge = std::abs(chart_.vertices[rim[(i + 1) % rim.size()]] - chart_.vertices[rim[i]]);
+        length += edge;
+        squares += edge * edge;
+    }
+    const double of_rim = 2 * std::numbers::pi / (kEdgesPerTurn * squares / length);
+    return std::clamp(of_mesh, 1, std::max(kLeastDegree, static_cast<int>(of_rim)));
+}
+
 void ExtremalProblem::set_singularities(Singularities singularities, int cluster_count) {
     singularities_ = std::move(singularities);
-    coefficient_step_.emplace(source_, chart_, singularities_, phase_, cluster_count);
+    coefficient_step_.emplace(domain(), chart_, singularities_, phase_, cluster_count);
 }
 
 std::unique_ptr<DifferentialSpace> ExtremalProblem::starting_space(int largest_degree) const {
-    if (singularities_.empty()) return PolynomialSpace::starting_space(largest_degree);
+    if (singularities_.empty()) {
+        if (chart_metric_) return std::make_unique<PolynomialSpace>(largest_degree, largest_degree);
+        return PolynomialSpace::starting_space(largest_degree);
+    }
     const QuadraturePoints& quadrature = coefficient_step_->quadrature();
     return RationalSpace::starting_space(singularities_, {quadrature.points, quadrature.weights}, largest_degree);
 }

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include <beltrami/constraints/boundary_corners.h>
+#include <beltrami/teichmuller/chart_metric.h>
 #include <beltrami/teichmuller/hamilton.h>
 
 namespace beltrami {
@@ -19,16 +20,37 @@ class ExtremalProblem {
     ExtremalProblem(const Surface& source, const BoundaryCondition& boundary, int expected_factorizations);
     ExtremalProblem(const ExtremalProblem&) = delete;
 
+    /// Takes other boundary values for the same vertices, and the harmonic map with them, as long as the solver's
+    /// factorisation is that of the coefficient 0.
+    void set_boundary(const BoundaryCondition& boundary);
     /// Takes a chart; phase() is known from then on.
     void set_chart(Chart chart);
+    /// Takes the plane of the chart that was set as the metric of the iteration, where that is right: a disk in space
+    /// or with a metric of its own, only its boundary prescribed, whose chart turns over next to nothing of itself.
+    /// @return whether it has
+    bool take_chart_metric();
     /// Takes where φ may be singular, in the chart that was set: the c-step is known from then on.
     void set_singularities(Singularities singularities, int cluster_count);
 
     const Surface& source() const { return source_; }
+    /// The surface with the metric of the iteration: the source, or the plane of its chart.
+    const Surface& domain() const { return chart_metric_ ? chart_metric_->plane() : source_; }
+    /// Null where the metric of the iteration is the source's own.
+    const ChartMetric* chart_metric() const { return chart_metric_.get(); }
+    /// φ of domain() in the source's frames, and coefficients of maps of domain() as coefficients on the source.
+    Eigen::VectorXcd differential_on_source(const Eigen::VectorXcd& phi) const {
+        return chart_metric_ ? chart_metric_->differential_on_surface(phi) : phi;
+    }
+    Eigen::VectorXcd coefficient_on_source(const Eigen::VectorXcd& nu) const {
+        return chart_metric_ ? chart_metric_->coefficient_on_surface(nu) : nu;
+    }
     BeltramiSolver& solver() { return solver_; }
     const BeltramiSolver& solver() const { return solver_; }
     FixedMapStep& map_step() { return map_step_; }
+    /// The f-step for coefficients in domain().
+    MapStep& step_in_domain();
     const Eigen::VectorXcd& harmonic() const { return harmonic_; }
+    /// Of domain().
     const Chart& chart() const { return chart_; }
     CoefficientStep& coefficient_step() { return *coefficient_step_; }
     /// Whether φ may be singular within reach of the mesh: at corners or pinned points. (Where vertices slide poles and
@@ -43,16 +65,41 @@ class ExtremalProblem {
     /// Rotation of the chart that turns with the source when the boundary values are carried along.
     double phase() const { return phase_; }
 
-    /// A first space for the singularities, which can grow up to a degree.
+    /// Whether the chart is that of a round disk.
+    bool chart_is_round() const;
+    /// The largest degree of φ that the mesh resolves, and where the chart is round its rim too.
+    int largest_degree() const;
+    /// A first space for the singularities, which can grow up to a degree. In the plane of a chart, where no noise
+    /// forbids it, it has that degree at once.
     std::unique_ptr<DifferentialSpace> starting_space(int largest_degree) const;
 
   private:
+    /// The f-step on the source for coefficients in the plane of its chart.
+    class StepInChart final : public MapStep {
+      public:
+        StepInChart(PlaneMapStep& step, const ChartMetric& metric) : step_(step), metric_(metric) {}
+        void solve(const Eigen::VectorXcd& nu, double tolerance) override {
+            step_.solve(metric_.coefficient_on_surface(nu), tolerance);
+        }
+        MapDerivatives derivatives() const override {
+            return beltrami::derivatives(metric_.plane().operators, step_.map());
+        }
+        std::any snapshot() const override { return step_.snapshot(); }
+        void restore(const std::any& snapshot) override { step_.restore(snapshot); }
+
+      private:
+        PlaneMapStep& step_;
+        const ChartMetric& metric_;
+    };
+
     const Surface& source_;
     BoundaryCondition boundary_;
     BeltramiSolver solver_;
     FixedMapStep map_step_;
     Eigen::VectorXcd harmonic_;
     Chart chart_;
+    std::unique_ptr<ChartMetric> chart_metric_;
+    std::optional<StepInChart> step_in_chart_;
     Singularities singularities_;
     double phase_ = 0;
     std::optional<CoefficientStep> coefficient_step_;

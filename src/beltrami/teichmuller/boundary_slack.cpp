@@ -1,0 +1,256 @@
+#include <beltrami/teichmuller/boundary_slack.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include <beltrami/base/error.h>
+#include <beltrami/linear/symmetric_solver.h>
+#include <beltrami/plane/circle_fit.h>
+#include <beltrami/plane/target_curve.h>
+
+namespace beltrami {
+
+namespace {
+
+constexpr double kTwoPi = 2 * std::numbers::pi;
+/// Edges farther apart are not coupled in the steps; and the energy of loops with more edges is that of these pairs.
+constexpr int kBand = 16, kMostFullEdges = 1000;
+/// Gauss-Newton steps, and the part of an edge below which they end.
+constexpr int kSteps = 8;
+constexpr double kSettled = 1e-3;
+/// A point moves at most so far towards the next one in a step, as part of the edge between them.
+constexpr double kMostOfEdge = 0.4;
+/// A point that does not move may do so by this part of an edge, for the interior point method.
+constexpr double kHeld = 1e-6;
+/// Where the images turn by more (radians) the target has a corner.
+constexpr double kCorner = 0.35;
+constexpr int kInteriorSteps = 60;
+constexpr double kInteriorTolerance = 1e-12;
+/// The matrix is made definite by this part of its mean diagonal: a shift of all points changes no u.
+constexpr double kShift = 1e-10;
+
+/// The target as a curve, and the parameters of the images on it, increasing.
+struct Track {
+    TargetCurve curve;
+    Eigen::VectorXd place;
+    std::vector<char> held;
+};
+
+Track track_of(const std::vector<Complex>& images) {
+    const auto n = static_cast<Eigen::Index>(images.size());
+    Eigen::VectorXd place(n);
+    std::vector<char> held(images.size(), 0);
+    const CircleFit circle = fit_circle(images);
+    if (circle.exact()) {
+        double angle = std::arg(images[0] - circle.centre);
+        for (Eigen::Index i = 0; i < n; ++i) {
+            place[i] = circle.radius * angle;
+            angle += std::arg((images[(i + 1) % n] - circle.centre) / (images[i] - circle.centre));
+        }
+        return {TargetCurve::circle(circle.centre, circle.radius), std::move(place), std::move(held)};
+    }
+    bool corners = false;
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const Complex before = images[i] - images[(i + n - 1) % n], after = images[(i + 1) % n] - images[i];
+        held[i] = std::abs(std::arg(after / before)) > kCorner;
+        corners = corners || held[i];
+    }
+    const TargetCurve curve = corners ? TargetCurve::polygon(images) : TargetCurve::spline(images);
+    for (Eigen::Index i = 0; i < n; ++i) place[i] = curve.knots()[i];
+    return {curve, std::move(place), std::move(held)};
+}
+
+/// The weights w_ij of edges of a circle.
+class PairWeights {
+  public:
+    explicit PairWeights(const Eigen::VectorXd& edges) : edges_(edges), begin_(edges.size()) {
+        double angle = 0;
+        for (Eigen::Index i = 0; i < edges.size(); angle += edges[i++]) begin_[i] = angle;
+    }
+    int size() const { return static_cast<int>(edges_.size()); }
+    double operator()(int i, int j) const {
+        const int apart = std::abs(i - j);
+        const double a = begin_[i], b = a + edges_[i], c = begin_[j], d = c + edges_[j];
+        if (std::min(apart, size() - apart) <= 1) {  // the integral diverges: by the midpoints
+            const double sine = half_sine(0.5 * (a + b) - 0.5 * (c + d));
+            return edges_[i] * edges_[j] / (4 * sine * sine);
+        }
+        return std::max(0.0, std::log(half_sine(c - a) * half_sine(d - b) / (half_sine(c - b) * half_sine(d - a))));
+    }
+
+  private:
+    static double half_sine(double angle) { return std::abs(std::sin(0.5 * angle)); }
+    const Eigen::VectorXd& edges_;
+    Eigen::VectorXd begin_;
+};
+
+double energy(const PairWeights& weights, const Eigen::VectorXd& u) {
+    const int n = weights.size(), reach = n <= kMostFullEdges ? n / 2 : kBand;
+    double sum = 0;
+    for (int i = 0; i < n; ++i)
+        for (int step = 1; step <= reach; ++step) {
+            const int j = (i + step) % n;
+            if (2 * step == n && j < i) continue;  // opposite edges once
+            sum += weights(i, j) * (u[i] - u[j]) * (u[i] - u[j]);
+        }
+    return sum;
+}
+
+using Matrix = SymmetricSolver::Matrix;
+
+/// Graph Laplacian of the weights of edges at most kBand apart.
+Matrix coupling(const PairWeights& weights) {
+    const int n = weights.size(), reach = std::min(kBand, (n - 1) / 2);
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int i = 0; i < n; ++i)
+        for (int step = 1; step <= reach; ++step) {
+            const int j = (i + step) % n;
+            const double w = weights(i, j);
+            entries.emplace_back(i, i, w);
+            entries.emplace_back(j, j, w);
+            entries.emplace_back(i, j, -w);
+            entries.emplace_back(j, i, -w);
+        }
+    Matrix result(n, n);
+    result.setFromTriplets(entries.begin(), entries.end());
+    return result;
+}
+
+/// Minimises ½ xᵀHx + qᵀx between bounds by a primal-dual interior point method.
+/// @param solver of the pattern of H's lower triangle
+Eigen::VectorXd minimum_in_box(const Matrix& hessian, const Eigen::VectorXd& q, const Eigen::VectorXd& low,
+                               const Eigen::VectorXd& high, SymmetricSolver& solver) {
+    const Matrix lower = hessian.triangularView<Eigen::Lower>();
+    Eigen::VectorXd x = 0.5 * (low + high);
+    const double force = std::max((hessian * x + q).cwiseAbs().maxCoeff(), 1e-300);
+    Eigen::VectorXd at_low = Eigen::VectorXd::Constant(x.size(), force), at_high = at_low;  // multipliers
+    const double last = kInteriorTolerance * force * (high - low).mean();
+    for (int step = 0; step < kInteriorSteps; ++step) {
+        const Eigen::ArrayXd above = x - low, below = high - x;
+        const double gap = (above * at_low.array() + below * at_high.array()).mean() / 2;
+        if (gap < last) break;
+        const double centred = (step == 0 ? 0.5 : 0.1) * gap;
+        solver.matrix().coeffs() = lower.coeffs();
+        const Eigen::ArrayXd barrier = at_low.array() / above + at_high.array() / below;
+        for (Eigen::Index i = 0; i < x.size(); ++i)
+            solver.matrix().valuePtr()[solver.matrix().outerIndexPtr()[i]] += barrier[i];  // first of its column
+        solver.factorize();
+        const Eigen::VectorXd rhs = -(hessian * x + q) + (centred / above - centred / below).matrix();
+        const Eigen::ArrayXd move = solver.solve(rhs).col(0).array();
+        const Eigen::ArrayXd low_move = centred / above - at_low.array() - at_low.array() / above * move,
+                             high_move = centred / below - at_high.array() + at_high.array() / below * move;
+        double length = 1;
+        const auto limit = [&](const Eigen::ArrayXd& value, const Eigen::ArrayXd& change) {
+            for (Eigen::Index i = 0; i < value.size(); ++i)
+                if (change[i] < 0) length = std::min(length, -0.95 * value[i] / change[i]);
+        };
+        limit(above, move);
+        limit(below, -move);
+        limit(at_low.array(), low_move);
+        limit(at_high.array(), high_move);
+        x += length * move.matrix();
+        at_low += length * low_move.matrix();
+        at_high += length * high_move.matrix();
+    }
+    return x;
+}
+
+/// Angles of the rim's edges in the chart.
+Eigen::VectorXd rim_angles(const std::vector<int>& rim, const Chart& chart) {
+    const std::size_t n = rim.size();
+    Eigen::VectorXd angles(static_cast<Eigen::Index>(n));
+    for (std::size_t i = 0; i < n; ++i) {
+        const double angle = std::arg(chart.vertices[rim[(i + 1) % n]] / chart.vertices[rim[i]]);
+        if (!(angle > 0))
+            throw Error(Cause::bad_boundary,
+                        "the boundary does not run forward in the conformal chart at vertex " + std::to_string(rim[i]) +
+                            ", so its points cannot be moved against their noise",
+                        "use no slack, or mend the mesh there", {rim[i]});
+        angles[static_cast<Eigen::Index>(i)] = angle;
+    }
+    return angles * (kTwoPi / angles.sum());
+}
+
+}  // namespace
+
+SlackBoundary slacken(const Surface& source, const Chart& chart, const BoundaryCondition& boundary, double slack) {
+    const std::vector<int>& rim = source.topology.boundary_loops[0];
+    const auto n = static_cast<int>(rim.size());
+    const Eigen::VectorXcd values = prescribed_values(boundary, source);
+    std::vector<Complex> images;
+    for (const int v : rim) images.push_back(values[v]);
+    const Track track = track_of(images);
+    const double length = track.curve.length();
+    const Eigen::VectorXd angles = rim_angles(rim, chart);
+    const PairWeights weights(angles);
+    const Matrix coupled = coupling(weights);
+
+    const auto increments = [&](const Eigen::VectorXd& t) {
+        Eigen::VectorXd result(n);
+        for (int i = 0; i < n; ++i) result[i] = t[(i + 1) % n] - t[i] + (i == n - 1 ? length : 0.0);
+        return result;
+    };
+    const auto speeds = [&](const Eigen::VectorXd& increment) -> Eigen::VectorXd {
+        return increment.cwiseQuotient(angles).array().log();
+    };
+    const auto beside = [&](const Eigen::VectorXd& of_edges, int i) {
+        return std::array{of_edges[(i + n - 1) % n], of_edges[i]};
+    };
+    Eigen::VectorXd t = track.place, increment = increments(t), edge(n);
+    if (!(increment.minCoeff() > 0))
+        throw Error(Cause::bad_boundary, "the boundary values do not run forward along their target",
+                    "use no slack, or give boundary values that do");
+    for (int i = 0; i < n; ++i) edge[i] = 0.5 * (beside(increment, i)[0] + beside(increment, i)[1]);
+    Eigen::VectorXd low(n), high(n);
+    for (int i = 0; i < n; ++i) {
+        const double room = (track.held[i] ? std::min(slack, kHeld) : slack) * edge[i];
+        low[i] = t[i] - room;
+        high[i] = t[i] + room;
+    }
+
+    SlackBoundary result{boundary, energy(weights, speeds(increment)), 0, 0};
+    std::optional<SymmetricSolver> solver;
+    for (int step = 0; step < kSteps; ++step) {
+        const Eigen::VectorXd u = speeds(increment);
+        std::vector<Eigen::Triplet<double>> entries;
+        for (int i = 0; i < n; ++i) {
+            entries.emplace_back(i, i, -1 / increment[i]);
+            entries.emplace_back(i, (i + 1) % n, 1 / increment[i]);
+        }
+        Matrix by_place(n, n);
+        by_place.setFromTriplets(entries.begin(), entries.end());
+        Matrix hessian = Matrix(by_place.transpose()) * coupled * by_place;
+        hessian.diagonal().array() += kShift * hessian.diagonal().mean();
+        // By moves from where the points stand, which may be far shorter than the curve is long.
+        Eigen::VectorXd from(n), to(n);
+        for (int i = 0; i < n; ++i) {
+            const double room = kMostOfEdge * std::min(beside(increment, i)[0], beside(increment, i)[1]);
+            from[i] = std::min(std::max(low[i] - t[i], -room), 0.0) - 1e-12 * edge[i];
+            to[i] = std::max(std::min(high[i] - t[i], room), 0.0) + 1e-12 * edge[i];
+        }
+        const Eigen::VectorXd force = by_place.transpose() * (coupled * u);
+        if (!solver) solver.emplace(hessian.triangularView<Eigen::Lower>(), kSteps * kInteriorSteps);
+        const Eigen::VectorXd move = minimum_in_box(hessian, force, from, to, *solver);
+        const double moved = move.cwiseQuotient(edge).cwiseAbs().maxCoeff();
+        t += move;
+        increment = increments(t);
+        if (moved < kSettled) break;
+    }
+    result.energy_after = energy(weights, speeds(increment));
+    if (!(result.energy_after < result.energy_before)) {
+        result.energy_after = result.energy_before;
+        return result;
+    }
+    result.largest_move = (t - track.place).cwiseQuotient(edge).cwiseAbs().maxCoeff();
+    std::vector<int> position(values.size(), -1);
+    for (int i = 0; i < n; ++i) position[rim[i]] = i;
+    for (std::size_t i = 0; i < boundary.vertices.size(); ++i)
+        if (const int at = position[boundary.vertices[i]]; at >= 0 && !track.held[at])
+            result.boundary.images[i] = track.curve.point(t[at]);
+    return result;
+}
+
+}  // namespace beltrami
