@@ -95,7 +95,7 @@ SolutionBounds solution_bounds(const Solution& s, std::optional<int> subdivision
         const ReichStrebel averaged = averaged_estimate(s.source, s.chart, s.phi, s.map);
         if (averaged.valid) {
             result.bounds.push_back({"averaged_estimate", averaged.lower, Bound::Of::extremal, false});
-            if (!sharpened) estimate = averaged.lower;
+            if (!sharpened && !(s.space.tabulated() && own.valid)) estimate = averaged.lower;
         }
     }
     result.K_lower = lower;

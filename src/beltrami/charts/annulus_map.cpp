@@ -117,30 +117,53 @@ Eigen::VectorXd periodic_harmonic(const Surface& surface, const std::vector<doub
 
 }  // namespace
 
-Eigen::VectorXcd annulus_map(const Surface& surface, int outer_loop) {
+AnnulusPotentials annulus_potentials(const Surface& surface, int outer_loop) {
     const Operators& operators = surface.operators;
-    const Eigen::VectorXd u = potential(surface, outer_loop);
+    const FaceList& faces = surface.mesh.faces;
+    AnnulusPotentials result;
+    result.u = potential(surface, outer_loop);
     const std::vector<double> jumps = jumps_across_strip(surface, outer_loop);
-    const Eigen::VectorXd v = periodic_harmonic(surface, jumps);
-    double u_energy = 0, v_energy = 0, turning = 0;
+    result.v = periodic_harmonic(surface, jumps);
+    double turning = 0;
     for (int s = 0; s < operators.sample_count(); ++s) {
         const auto stencil = operators.stencil(s);
         const auto gradient = operators.gradient(s);
-        const double* jump = &jumps[surface.mesh.faces.first_corner(operators.faces[s])];
+        const double* jump = &jumps[faces.first_corner(operators.faces[s])];
         Complex du = 0, dv = 0;
         for (std::size_t j = 0; j < stencil.size(); ++j) {
-            du += u[stencil[j]] * gradient[j];
-            dv += (v[stencil[j]] + jump[j]) * gradient[j];
+            du += result.u[stencil[j]] * gradient[j];
+            dv += (result.v[stencil[j]] + jump[j]) * gradient[j];
         }
-        u_energy += operators.weights[s] * std::norm(du);
-        v_energy += operators.weights[s] * std::norm(dv);
+        result.u_energy += operators.weights[s] * std::norm(du);
+        result.v_energy += operators.weights[s] * std::norm(dv);
         turning += operators.weights[s] * std::imag(std::conj(du) * dv);
     }
     // −u grows outwards, the angle counter-clockwise: the gradient of the angle is that of −u turned by 90°.
-    const double modulus = 2 * std::numbers::pi * std::sqrt(v_energy / u_energy);
-    const double sense = turning < 0 ? 2 * std::numbers::pi : -2 * std::numbers::pi;
-    Eigen::VectorXcd g(u.size());
-    for (Eigen::Index i = 0; i < u.size(); ++i) g[i] = std::polar(std::exp(-modulus * u[i]), sense * v[i]);
+    const double sense = turning < 0 ? 1 : -1;
+    result.v *= sense;
+    // Along boundary edges, by the jumps of the faces beside them.
+    std::vector<double> after(surface.mesh.vertex_count(), 0.0);
+    for (int f = 0; f < faces.size(); ++f)
+        for (int c = faces.first_corner(f), end = c + faces.degree(f), first = c; c < end; ++c) {
+            const auto& sides = surface.topology.edge_faces[surface.topology.corner_edges[c]];
+            const int next = c + 1 < end ? c + 1 : first;
+            if (sides[0] < 0 || sides[1] < 0)
+                after[faces.vertices()[c]] =
+                    result.v[faces.vertices()[next]] - result.v[faces.vertices()[c]] + sense * (jumps[next] - jumps[c]);
+        }
+    for (const auto& loop : surface.topology.boundary_loops) {
+        auto& increments = result.increments.emplace_back();
+        for (const int v : loop) increments.push_back(after[v]);
+    }
+    return result;
+}
+
+Eigen::VectorXcd annulus_map(const Surface& surface, int outer_loop) {
+    const AnnulusPotentials potentials = annulus_potentials(surface, outer_loop);
+    const double modulus = 2 * std::numbers::pi * std::sqrt(potentials.v_energy / potentials.u_energy);
+    Eigen::VectorXcd g(potentials.u.size());
+    for (Eigen::Index i = 0; i < g.size(); ++i)
+        g[i] = std::polar(std::exp(-modulus * potentials.u[i]), 2 * std::numbers::pi * potentials.v[i]);
     return g;
 }
 

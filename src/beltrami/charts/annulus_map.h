@@ -1,8 +1,23 @@
 #pragma once
 
+#include <vector>
+
 #include <beltrami/operators/surface.h>
 
 namespace beltrami {
+
+/// The two harmonic functions of an annulus-like surface, each by one linear solve of #V unknowns.
+struct AnnulusPotentials {
+    Eigen::VectorXd u;  ///< #V, 0 on the outer loop and 1 on the other one
+    Eigen::VectorXd v;  ///< #V, grows by 1 when going around with the outer loop's direction; its values modulo 1
+    /// ∫|∇u|² and ∫|∇v|²: the capacity between the loops of the polyhedron lies between 1/v_energy and u_energy.
+    double u_energy = 0, v_energy = 0;
+    /// #loops: growth of v from every vertex of a boundary loop to the next one.
+    std::vector<std::vector<double>> increments;
+};
+/// @pre one component of genus 0 with two boundary loops
+/// @throw Error not_solved
+AnnulusPotentials annulus_potentials(const Surface& surface, int outer_loop);
 
 /// The conformal map of an annulus-like surface to a round annulus, @p outer_loop on the unit circle and the other loop
 /// on a circle about 0: exp(−2π(u − i v)/T), u harmonic, 0 on the outer loop and 1 on the other one, v its conjugate

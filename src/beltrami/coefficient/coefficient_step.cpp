@@ -12,7 +12,6 @@ namespace beltrami {
 
 namespace {
 
-constexpr double kClip = 0.95;
 /// δ of the rounded |φ| as part of its mean, per edge length of a sample in a domain of diameter 2: about |φ| at a
 /// fraction of an edge from a simple zero.
 constexpr double kRounding = 0.4;
@@ -23,11 +22,11 @@ constexpr std::array kColdRoundings{0.3, 0.1, 0.03};
 /// … and ends each of them at steps of this length.
 constexpr double kColdStep = 0.05;
 
-Complex clipped(Complex mu) {
+Complex clipped(Complex mu, double clip) {
     const double size = std::abs(mu);
     if (std::isnan(size)) return 0;
-    if (std::isinf(size)) return kClip;
-    return size > kClip ? mu * (kClip / size) : mu;
+    if (std::isinf(size)) return clip;
+    return size > clip ? mu * (clip / size) : mu;
 }
 
 }  // namespace
@@ -204,7 +203,7 @@ CoefficientStep::Result CoefficientStep::solve(const Eigen::VectorXcd& mu, const
     Eigen::VectorXd cluster_weight = Eigen::VectorXd::Zero(clusters_.points.positions.size());
     for (int s = 0; s < samples; ++s) {
         if (chart_.excluded[s]) continue;
-        const Complex m = clipped(mu[s]);
+        const Complex m = clipped(mu[s], clip_);
         const double square = std::norm(m), area = source_.operators.weights[s];
         pairing_weight(s, 0) = area / (1 - square) * m;
         norm_weight[s] = area * (1 + square) / (1 - square);

@@ -19,7 +19,7 @@ class CoefficientStep {
         Eigen::VectorXcd direction;  ///< coefficients of φ, of length 1; 0 if nothing pairs with μ
         Eigen::VectorXcd phi;        ///< #S values of φ for these coefficients
         double k = 0;
-        /// 1/I⁻ of the Reich-Strebel inequality for φ and μ (held at 0.95), one point per sample: how good both are.
+        /// 1/I⁻ of the Reich-Strebel inequality for φ and μ (held at clip), one point per sample: how good both are.
         double merit = 0;
         int newton_steps = 0;
         bool converged = false;  ///< of the convex problem
@@ -40,6 +40,9 @@ class CoefficientStep {
     /// Newton's method quick, less makes φ exact.
     void set_least_rounding(double part) { least_rounding_ = part; }
 
+    /// |μ| is held at this where it is larger (0.95): 0.95 ≤ clip < 1. Of maps that have more everywhere.
+    void set_clip(double clip) { clip_ = clip; }
+
     /// φ of coefficients (#S).
     const Eigen::VectorXcd& values(const Eigen::VectorXcd& coefficients);
 
@@ -47,7 +50,7 @@ class CoefficientStep {
     /// there φ may all but vanish on one side, where less than k will do, and what is left of it says how much less.
     Eigen::VectorXcd coefficient(double k, const Eigen::VectorXcd& phi) const;
 
-    /// @param mu    #S coefficients of the map; those of flipped or nearly flipped samples are held at |μ| = 0.95
+    /// @param mu    #S coefficients of the map; those of flipped or nearly flipped samples are held at |μ| = clip
     /// @param start direction to start from, padded by zeros; empty at the very beginning
     /// @param step  length of a Newton step, as part of the whole, at which c is good enough
     /// @param newton_steps allowed
@@ -72,6 +75,7 @@ class CoefficientStep {
     DualProblem problem_;
     Eigen::VectorXd moved_;  ///< of φ at the clusters in the last step
     double least_rounding_ = 0;
+    double clip_ = 0.95;
     bool soft_ = false;  ///< see coefficient()
     double edge_ = 0;    ///< of the mean sample in the canonical domain
 };

@@ -16,6 +16,7 @@
 #include <beltrami/mesh/subdivide.h>
 #include <beltrami/teichmuller/boundary_slack.h>
 #include <beltrami/teichmuller/coarse_start.h>
+#include <beltrami/teichmuller/elongation.h>
 #include <beltrami/teichmuller/piecewise_solver.h>
 #include <beltrami/teichmuller/prepared_problem.h>
 #include <beltrami/teichmuller/problem.h>
@@ -118,6 +119,7 @@ struct ExtremalSolver::Implementation {
     bool converged = false;
     int other_factorizations = 0;           // of the chart and the finish
     int earlier_iterations = 0;             // from a start that was given up
+    bool elongated = false;                 // see elongation.h
     bool smooth = true;                     // φ has no singularities
     std::optional<Singularities> withheld;  // that φ may have but need not
     std::optional<SlackReport> slack;
@@ -140,10 +142,13 @@ struct ExtremalSolver::Implementation {
         other_factorizations += charts.chart.factorizations;
         warnings.insert(warnings.end(), charts.chart.warnings.begin(), charts.chart.warnings.end());
         if (options.slack > 0) take_slack(charts.chart);
+        elongated = has_plain_start() && source.topology.boundary_loops.size() == 1 && boundary.lines.empty() &&
+                    boundary.vertices.size() == source.topology.boundary_loops[0].size() && image_corners() > 2 &&
+                    is_elongated(source.operators, problem.harmonic());
         Singularities singularities = take_chart(std::move(charts.chart), problem.harmonic());
         // Corners that only a fine mesh would resolve need no poles; that they do not, the coarse problem shows. In a
         // chart far from conformal poles at corners would see its errors as dilatation.
-        if ((singularities.only_corners() || (instead && singularities.empty())) && has_plain_start() &&
+        if (!elongated && (singularities.only_corners() || (instead && singularities.empty())) && has_plain_start() &&
             problem.chart_is_round()) {
             CoarseStart coarse = coarse_start(source, boundary, problem.chart(), problem.phase(),
                                               problem.largest_degree(), options, instead ? 0 : kCoarseStartPays);
@@ -155,7 +160,9 @@ struct ExtremalSolver::Implementation {
             }
         }
         if (instead && !withheld) singularities = take_instead(problem.harmonic());
+        if (elongated) singularities = {};
         problem.set_singularities(std::move(singularities), options.cluster_count);
+        if (elongated) problem.coefficient_step().set_clip(clip_of_elongated(source.operators, problem.harmonic()));
         if (source.topology.boundary_loops.size() > 1)
             paths = loop_paths(source, problem.chart().vertices, wanted.outer_loop);
         choose_start();
@@ -200,6 +207,13 @@ struct ExtremalSolver::Implementation {
         }
     }
 
+    /// Corners of the image.
+    std::ptrdiff_t image_corners() const {
+        return std::count_if(corners.begin(), corners.end(), [](const BoundaryCorner& corner) {
+            return std::abs(corner.image_angle - std::numbers::pi) > kSharpImage;
+        });
+    }
+
     /// Whether no corner is more than what the outline of a scan has everywhere. In the plane of the chart φ then needs
     /// no poles: they would be fitted to single edges.
     bool corners_are_noise() const {
@@ -211,7 +225,8 @@ struct ExtremalSolver::Implementation {
     /// Makes a chart that of the problem; returns where φ may be singular in it.
     Singularities take_chart(Chart chart, const Eigen::VectorXcd& at) {
         Singularities result = singularities_of(source, chart, boundary, corners, at);
-        const bool plain = options.chart_metric && (result.empty() || result.only_corners()) && corners_are_noise();
+        const bool plain =
+            options.chart_metric && !elongated && (result.empty() || result.only_corners()) && corners_are_noise();
         held_alone = held_vertices(source, chart, boundary, at);
         problem.set_chart(std::move(chart));
         if (plain && problem.take_chart_metric()) result = {};
@@ -247,7 +262,7 @@ struct ExtremalSolver::Implementation {
             map = follow(source, Continuation(source, places, wanted.outer_loop, boundary, *wanted.waypoints)).map;
         } else if (!wanted.turns.empty()) {
             map = start_in_class(source, problem.chart().vertices, wanted.outer_loop, boundary, wanted.turns).map;
-        } else if (smooth && !state.space) {
+        } else if (smooth && !elongated && !state.space) {
             state = coarse_start(source, boundary, problem.chart(), problem.phase(), problem.largest_degree(), options)
                         .state;
         }
@@ -285,13 +300,18 @@ struct ExtremalSolver::Implementation {
         return how;
     }
 
+    std::unique_ptr<DifferentialSpace> first_space() const {
+        if (elongated) return harmonic_square_space(source, problem.chart(), problem.harmonic());
+        return problem.starting_space(problem.largest_degree());
+    }
+
     /// Runs the iteration from where it stands.
     void iterate_once(const HamiltonIteration::Options& how) {
         problem.map_step().set_near(state.space && problem.solver().factorization_count() > 1);
         problem.map_step().set_map(map);
         HamiltonIteration iteration(problem.step_in_domain(), problem.coefficient_step(), adapted(how));
         // Only a run from nothing needs a space to begin with, and its basis is costly.
-        iteration.run(state, state.space ? nullptr : problem.starting_space(problem.largest_degree()));
+        iteration.run(state, state.space ? nullptr : first_space());
         map = problem.map_step().map();
         step = iteration.last_step();
         converged = iteration.converged();

@@ -10,6 +10,7 @@
 #include <beltrami/solve/dirichlet_solver.h>
 #include <beltrami/starts/sliding_loops.h>
 #include <beltrami/teichmuller/coarse_sliding_start.h>
+#include <beltrami/teichmuller/onto_annulus.h>
 #include <beltrami/unfold/fold_free.h>
 
 namespace beltrami {
@@ -132,6 +133,13 @@ void SlidingSolver::begin() {
 }
 
 ExtremalMap SlidingSolver::solve() {
+    if (auto direct = crowded_annulus_onto_ring(source_, *target_, wanted_)) {
+        direct->factorizations += domain_.factorizations + target_->factorizations();
+        record_warnings(*direct);
+        direct->split = prepared_.split;
+        if (target_surface_) record_places(*direct);
+        return std::move(*direct);
+    }
     begin();
     ExtremalMap result = begun_;
     if (coefficient_step_) {

@@ -26,6 +26,14 @@ TEST(PolynomialSpace, CombinationIsTheProductWithTheBasis) {
     EXPECT_LT((space.combination(points, c) - space.evaluate(points) * c).cwiseAbs().maxCoeff(), 1e-12);
 }
 
+TEST(PolynomialSpace, PairingsAreProductsWithTheBasis) {
+    const PolynomialSpace space(11, 11);
+    ChartPoints points{0.7 * Eigen::VectorXcd::Random(4777), Eigen::VectorXcd::Random(4777)};
+    const Eigen::MatrixXcd weights = Eigen::MatrixXcd::Random(4777, 2);
+    const Eigen::MatrixXcd expected = space.evaluate(points).transpose() * weights;
+    EXPECT_LT((space.pair(points, weights) - expected).cwiseAbs().maxCoeff(), 1e-10);
+}
+
 TEST(PolynomialSpace, PulledBackValuesTransformAsQuadraticDifferentials) {
     const PolynomialSpace space(4, 4);
     const ChartPoints in_domain{Eigen::VectorXcd::Random(10), Eigen::VectorXcd::Ones(10)};
