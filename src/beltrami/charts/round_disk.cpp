@@ -25,6 +25,8 @@ Eigen::VectorXd harmonic_extension(const BeltramiSolver& dirichlet, const Eigen:
 
 /// From so many samples on flattening a patch instead of the whole surface saves much (docs/performance.md).
 constexpr int kGreensFunctionFrom = 8'000;
+/// A chart that turns over less of itself is good enough.
+constexpr double kMostUnseen = 1e-5;
 /// The tolerance to which a surface is flattened for a chart, whose own discretisation error is far larger.
 constexpr double kFlattenTolerance = 1e-8;
 
@@ -173,7 +175,8 @@ Chart compute_chart(const Surface& source, const BeltramiSolver* dirichlet, cons
     if (chart.excluded_faces > 0)
         if (Chart other = chart_by(ConjugateBy::system); other.excluded_faces < chart.excluded_faces)
             chart = std::move(other);
-    if (chart.excluded_faces > 0 && source.mesh.faces.corner_count() == 3 * source.mesh.face_count())
+    if (chart.excluded_faces > 0 && source.mesh.faces.corner_count() == 3 * source.mesh.face_count() &&
+        unseen_part(source, chart) > kMostUnseen)
         if (auto g = disk_map_by_vertex_source(source, &factorizations)) {
             centre_in_disk(*g, areas);
             if (Chart other = make_chart(source, std::move(*g), false);
