@@ -62,7 +62,7 @@ TEST(OntoAnnulus, AFingerIsMappedWithoutFoldsInARigorousBracket) {
             for (const int v : source.topology.boundary_loops[l])
                 EXPECT_NEAR(std::abs(direct->map[v] - Complex(0.5, -0.25)), l == 0 ? 2 : 2 * radius, 1e-12);
         // The way through the whole solver is the same.
-        const ExtremalMapOnto whole = extremal_map(source, round_ring(radius));
+        const ExtremalMap whole = extremal_map(source, round_ring(radius));
         EXPECT_EQ(whole.iterations, 0);
         EXPECT_EQ(whole.K, direct->K);
     }
