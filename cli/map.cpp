@@ -41,8 +41,9 @@ class Map final : public Command {
             ->check(CLI::IsMember({"K", "max"}))
             ->capture_default_str();
         app->add_option("--certify", certify_,
-                        "refine the mesh until K is at most P percent above its lower bound, and say why where that "
-                        "cannot be had; the map stays on SOURCE's mesh")
+                        "prove that the least dilatation lies between two numbers at most P percent apart, refining "
+                        "the mesh for "
+                        "that, and say why where that cannot be had; the map stays on SOURCE's mesh")
             ->check(CLI::PositiveNumber)
             ->type_name("P");
         app->add_option("--slack", slack_,

@@ -80,7 +80,7 @@ MethodResult run_extremal(const Surface& source, const Constraints& constraints,
         };
         if (!gap) return extremal_map(source, constraints, options);
         Certification certified = certify(source, constraints, *gap, options);
-        record.certificate = {*gap, certified.gap, certified.reached, certified.refinements, certified.reason};
+        record.certificate = certificate_record(certified, *gap);
         return std::move(certified.result);
     }();
     return finished(std::move(result), source, start, record);

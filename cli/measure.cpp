@@ -1,5 +1,7 @@
 #include <beltrami/base/error.h>
+#include <beltrami/certificate/proved_bounds.h>
 #include <beltrami/mesh/diagnosis.h>
+#include <beltrami/mesh/planar.h>
 #include <beltrami/mesh/topology.h>
 #include <beltrami/operators/distortion.h>
 
@@ -48,6 +50,9 @@ class Measure final : public Command {
         app->add_option("SOURCE", source_, "OBJ, PLY, OFF or STL")->required();
         app->add_option("IMAGE", image_,
                         "a mesh with the same faces; without it, the vt of SOURCE (per corner, seams allowed)");
+        app->add_flag("--certify", certify_,
+                      "prove how much any map of SOURCE, a disk, with the same boundary values stretches at least, "
+                      "beside what this one attains");
         common_.add_to(*app);
         app->footer(kExitCodes);
     }
@@ -60,6 +65,7 @@ class Measure final : public Command {
         record.source = examine(source, record.warnings);
         const Distortion d = image_.empty() ? to_texture(source) : to_mesh(source, record.warnings);
         record.map = map_record(d);
+        if (certify_) add_bounds(source, *record.map);
         warn_of(d.flipped, "face is flipped", "faces are flipped", record.warnings);
         warn_of(d.degenerate, "face collapses", "faces collapse", record.warnings);
         write_page(common_.report, page_mesh_ ? *page_mesh_ : source, {{"measured", image_positions_, d.face_abs_mu}},
@@ -76,8 +82,32 @@ class Measure final : public Command {
                            std::to_string(faces[0]));
     }
 
+    void add_bounds(const Mesh& source, MapRecord& record) const {
+        const ProvedBounds proved = bounds_of_map(Surface(source), map_);
+        record.bounds = proved.bounds;
+        record.K_lower = record.K_lower_proved = proved.K();
+    }
+
+    /// Images of the vertices in the plane, seen from the side from which a planar source is.
+    static Eigen::VectorXcd per_vertex(const Mesh& source, const Positions& corners) {
+        const bool below = is_planar(source) && seen_from_below(source);
+        Eigen::VectorXcd map = Eigen::VectorXcd::Zero(source.vertex_count());
+        std::vector<char> known(static_cast<std::size_t>(source.vertex_count()), 0);
+        for (int c = 0; c < source.faces.corner_count(); ++c) {
+            const int v = source.faces.vertices()[c];
+            const Complex image(corners(c, 0), below ? -corners(c, 1) : corners(c, 1));
+            if (known[v] && map[v] != image)
+                throw Error(Cause::bad_mesh, "the texture coordinates have a seam at vertex " + std::to_string(v),
+                            "cut SOURCE along the seam", {v});
+            known[v] = 1;
+            map[v] = image;
+        }
+        return map;
+    }
+
     Distortion to_texture(const Mesh& source) {
         const Positions corners = texture_corners(source);
+        if (certify_) map_ = per_vertex(source, corners);
         if (!common_.report.empty()) split_at_corners(source, corners);
         return distortion_to_corners(source, corners);
     }
@@ -104,11 +134,19 @@ class Measure final : public Command {
             throw Error(Cause::bad_mesh, "SOURCE and IMAGE do not have the same vertices and faces in the same order",
                         "write both from one program without reordering");
         if (!image.positions.allFinite()) throw Error(Cause::bad_mesh, "IMAGE has coordinates that are not finite");
+        if (certify_) {
+            if (!is_planar(image))
+                throw Error(Cause::bad_mesh, "IMAGE does not lie in the plane",
+                            "bounds are known for maps to the plane");
+            map_ = per_vertex(source, corner_positions(image));
+        }
         image_positions_ = is_planar(image) ? Positions(image.positions.leftCols(2)) : image.positions;
         return distortion_to(source, image);
     }
 
     std::string source_, image_;
+    bool certify_ = false;
+    Eigen::VectorXcd map_;  ///< #V, for certify_
     CommonOptions common_;
     Positions image_positions_;
     std::optional<Mesh> page_mesh_;

@@ -9,6 +9,8 @@
 #include <beltrami/baselines/baseline.h>
 #include <beltrami/baselines/t_map_scheme.h>
 #include <beltrami/certificate/certificate.h>
+#include <beltrami/certificate/proved_bounds.h>
+#include <beltrami/certificate/verified_bracket.h>
 #include <beltrami/charts/boundary_correspondence.h>
 #include <beltrami/charts/boundary_values.h>
 #include <beltrami/charts/chart_places.h>

@@ -8,11 +8,17 @@ namespace beltrami {
 
 /// A statement about a dilatation K.
 struct Bound {
-    enum class Of { extremal, mesh };
-    std::string kind;  ///< "reich_strebel", "reich_strebel_estimate", "averaged_estimate", "corner", "mesh_harmonic",
-                       ///< "attained"
+    enum class Of {
+        extremal,  ///< K*, the dilatation of the extremal map
+        mesh,      ///< every piecewise linear map of this mesh
+        /// Every map of exactly these polygons with values linear on their edges; K* of a smooth outline and smooth
+        /// values that they are sampled from may be smaller.
+        polygons,
+    };
+    std::string kind;  ///< "reich_strebel", "reich_strebel_estimate", "averaged_estimate", "corner", "edge_corner",
+                       ///< "moduli", "pair", "verified", "mesh_harmonic", "attained"
     double K;
-    Of of;          ///< of K*, the dilatation of the extremal map, or of every piecewise linear map of this mesh
+    Of of;
     bool rigorous;  ///< a proof up to floating point and quadrature; else an estimate
 };
 

@@ -86,8 +86,8 @@ function writeSentence() {
         sentences.push(`The largest |μ| of a face was ${fixed(before)} and is now ${fixed(after)}.`);
     }
     if (record.certificate) {
-        const { wanted, reached, reason } = record.certificate;
-        sentences.push(`The wanted certificate of ${percent(wanted)} was ${reached ? "" : "not "}reached: ${reason}.`);
+        const { wanted, reason } = record.certificate;
+        sentences.push(`Certificate of ${percent(wanted)}: ${reason}.`);
     }
     if (record.homotopy) sentences.push(turnsInWords(record.homotopy));
     if (solve.termination) {
@@ -104,10 +104,12 @@ function writeNumbers() {
         element("dt", { textContent: name }),
         element("dd", { textContent: value, className: alarm ? "value alarm" : "value" }),
         element("dd", { textContent: detail, className: "detail" })));
-    const { k, K, K_lower, K_max, mu = {}, flipped, degenerate, boundary_residual } = mainMap, { seconds = {} } = solve;
+    const { k, K, K_lower, K_lower_proved, K_upper, K_max, mu = {}, flipped, degenerate, boundary_residual } = mainMap, { seconds = {} } = solve;
     if (isNumber(K)) add("Dilatation K", fixed(K), isNumber(k) ? `k = ${fixed(k)}` : "");
     const gap = isNumber(K) && K > K_lower ? K / K_lower - 1 : 0;
     if (isNumber(K_lower)) add("Lower bound", fixed(K_lower), isNumber(K) ? `gap ${percent(gap)}` : "");
+    if (isNumber(K_lower_proved) && K_lower_proved < K_lower) add("Proved bound", fixed(K_lower_proved), "the other one is an estimate");
+    if (isNumber(K_upper)) add("Verified upper bound", fixed(K_upper), "of K*, by a piecewise quadratic map");
     if (K_max !== undefined) add("K of worst face", fixed(K_max), isNumber(mu.max) ? `|μ| = ${fixed(mu.max)}` : "");
     if (isNumber(mu.mean)) add("Mean |μ|", fixed(mu.mean), isNumber(mu.std) ? `± ${show(mu.std, 2)}` : "");
     if (flipped !== undefined) add("Flipped faces", show(flipped), `${show(degenerate ?? 0)} degenerate`, flipped > 0);

@@ -28,13 +28,17 @@ Json to_object(const MapRecord& map) {
     put(object, "k", map.k);
     put(object, "K", map.K);
     put(object, "K_lower", map.K_lower);
+    put(object, "K_lower_proved", map.K_lower_proved);
+    put(object, "K_upper", map.K_upper);
     put(object, "K_max", map.K_max);
     if (!map.bounds.empty()) {
         Json bounds = Json::array();
         for (const Bound& bound : map.bounds)
             bounds.push_back({{"kind", bound.kind},
                               {"K", number(bound.K)},
-                              {"of", bound.of == Bound::Of::extremal ? "K*" : "mesh"},
+                              {"of", bound.of == Bound::Of::extremal ? "K*"
+                                     : bound.of == Bound::Of::mesh   ? "mesh"
+                                                                     : "polygons"},
                               {"rigorous", bound.rigorous}});
         object["bounds"] = std::move(bounds);
     }
@@ -113,6 +117,19 @@ Json to_object(const FlowRecord& flow) {
     object["fits"] = flow.fits;
     if (flow.target) object["loops"] = to_rows(flow.loops);
     return object;
+}
+
+Json to_object(const CertificateRecord& certificate) {
+    return {{"wanted", number(certificate.wanted)},
+            {"proved", certificate.reached},
+            {"K_lower_proved", number(certificate.K_lower_proved)},
+            {"K_upper", number(certificate.K_upper)},
+            {"gap", number(certificate.gap)},
+            {"estimated_gap", number(certificate.estimated_gap)},
+            {"reached", certificate.reached},
+            {"refinements", certificate.refinements},
+            {"triangles", certificate.proof_triangles},
+            {"reason", certificate.reason}};
 }
 
 Json to_object(const OntoRecord& onto) {
@@ -279,6 +296,9 @@ MapRecord map_record(const ExtremalMap& result) {
     record.k = result.k;
     record.K = result.K;
     if (result.distortion.flipped.empty() || result.K_lower > 1) record.K_lower = result.K_lower;
+    record.K_lower_proved = result.K_lower_proved;
+    for (const Bound& bound : result.bounds)
+        if (bound.kind == "verified") record.K_upper = bound.K;
     record.bounds = result.bounds;
     record.boundary_residual = result.boundary_residual;
     return record;
@@ -292,6 +312,7 @@ MapRecord map_record(const LeastMaximumMap& result) {
             if (bound.kind != "attained" && !bound.kind.ends_with("_estimate")) record.bounds.push_back(bound);
         if (result.extremal->distortion.flipped.empty() || result.extremal->K_lower > 1)
             record.K_lower = result.extremal->K_lower;
+        record.K_lower_proved = result.extremal->K_lower_proved;
         record.boundary_residual = result.extremal->boundary_residual;
     }
     if (record.K_max && std::isfinite(*record.K_max))
@@ -339,6 +360,18 @@ SolveRecord solve_record(const LeastMaximumMap& result, double seconds_total) {
             false};
 }
 
+CertificateRecord certificate_record(const Certification& certified, double wanted) {
+    return {wanted,
+            certified.result.K_lower_proved,
+            certified.K_upper,
+            certified.gap,
+            certified.estimated_gap,
+            certified.reached,
+            certified.refinements,
+            certified.proof_triangles,
+            certified.reason};
+}
+
 CornersRecord corners_record(const ExtremalMap& result) {
     return {static_cast<int>(result.corners.size()), result.sharpest};
 }
@@ -379,12 +412,7 @@ std::string to_json(const Record& record) {
     if (record.corners) json["corners"] = to_object(*record.corners);
     add_outline(record.outline, json);
     if (record.split) json["split"] = {{"edges", record.split->edges}, {"added", record.split->added}};
-    if (record.certificate)
-        json["certificate"] = {{"wanted", number(record.certificate->wanted)},
-                               {"gap", number(record.certificate->gap)},
-                               {"reached", record.certificate->reached},
-                               {"refinements", record.certificate->refinements},
-                               {"reason", record.certificate->reason}};
+    if (record.certificate) json["certificate"] = to_object(*record.certificate);
     if (record.least_maximum)
         json["least_maximum"] = {{"power", record.least_maximum->power},
                                  {"before", number(record.least_maximum->before)},
@@ -455,9 +483,8 @@ std::string to_remarks(const Record& record) {
             "instead of {:.2f}\n",
             noise->slack, noise->K, *record.map->K);
     if (record.certificate)
-        text += fmt::format("certificate of {:.3g} %: {}; {} ({} {})\n", 100 * record.certificate->wanted,
-                            record.certificate->reached ? "reached" : "not reached", record.certificate->reason,
-                            record.certificate->refinements,
+        text += fmt::format("certificate of {:.3g} %: {} ({} {})\n", 100 * record.certificate->wanted,
+                            record.certificate->reason, record.certificate->refinements,
                             record.certificate->refinements == 1 ? "refinement" : "refinements");
     if (record.onto) {
         const OntoRecord& onto = *record.onto;
@@ -485,8 +512,12 @@ std::string to_sentence(const Record& record) {
     if (!record.map || !record.map->K_lower) return {};
     const MapRecord& map = *record.map;
     const bool rigorous = std::any_of(map.bounds.begin(), map.bounds.end(), [&](const Bound& bound) {
-        return bound.rigorous && bound.of == Bound::Of::extremal && bound.kind != "attained" && bound.K == *map.K_lower;
+        return bound.rigorous && bound.of == Bound::Of::extremal && bound.kind != "attained" &&
+               bound.kind != "verified" && bound.K == *map.K_lower;
     });
+    std::string proved = rigorous ? "proved up to rounding" : "estimate";
+    if (!rigorous && map.K_lower_proved && *map.K_lower_proved > 1)
+        proved += fmt::format("; proved: K = {:.3f}", std::floor(*map.K_lower_proved * 1e3) / 1e3);
     // Rounded so that what is said stays true.
     const char* prescribed = record.onto       ? "loops and marks in this homotopy class"
                              : record.homotopy ? "boundary values in this homotopy class"
@@ -494,8 +525,8 @@ std::string to_sentence(const Record& record) {
     return fmt::format(
         "no map with these {} stretches less than K = {:.3f} ({})\n"
         "this one: about {:.3f}, at most {:.3f} on 99 % of the area\n",
-        prescribed, std::floor(*map.K_lower * 1e3) / 1e3, rigorous ? "proved up to rounding" : "estimate",
-        dilatation(map.mean), std::ceil(dilatation(map.p99) * 1e3) / 1e3);
+        prescribed, std::floor(*map.K_lower * 1e3) / 1e3, proved, dilatation(map.mean),
+        std::ceil(dilatation(map.p99) * 1e3) / 1e3);
 }
 
 }  // namespace beltrami

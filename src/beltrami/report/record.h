@@ -7,6 +7,7 @@
 #include <beltrami/charts/uniformization.h>
 #include <beltrami/flow/beltrami_flow.h>
 #include <beltrami/report/grid_record.h>
+#include <beltrami/teichmuller/certify.h>
 #include <beltrami/teichmuller/distance.h>
 #include <beltrami/teichmuller/extremal_between.h>
 #include <beltrami/teichmuller/extremal_map.h>
@@ -30,7 +31,7 @@ struct SourceRecord {
 
 /// What a map does. Absent numbers do not apply; NaN and infinity become null in JSON.
 struct MapRecord {
-    std::optional<double> k, K, K_lower, K_max;
+    std::optional<double> k, K, K_lower, K_lower_proved, K_upper, K_max;
     std::vector<Bound> bounds;
     double mean = 0, standard_deviation = 0, p99 = 0, max = 0;
     int flipped = 0, degenerate = 0;
@@ -72,11 +73,14 @@ struct LeastMaximumRecord {
     double before = 0, after = 0;  ///< largest |μ| of the start and of the map
 };
 
-/// What a wanted gap between K and its lower bound has come to (certify.h).
+/// What a wanted gap between K_upper and K_lower_proved has come to (certify.h).
 struct CertificateRecord {
-    double wanted = 0, gap = 0;  ///< K/K_lower − 1
-    bool reached = false;
-    int refinements = 0;
+    double wanted = 0;
+    double K_lower_proved = 1, K_upper = 1;  ///< infinite: nothing is proved from above
+    double gap = 0;                          ///< K_upper/K_lower_proved − 1
+    double estimated_gap = 0;                ///< K/K_lower − 1
+    bool reached = false;                    ///< proved
+    int refinements = 0, proof_triangles = 0;
     std::string reason;
 };
 
@@ -163,6 +167,7 @@ MapRecord map_record(const ExtremalMap& result);
 /// Dilatation of the map itself; the lower bounds are those of the extremal map of its class.
 MapRecord map_record(const LeastMaximumMap& result);
 SolveRecord solve_record(const ExtremalMap& result, double seconds_total);
+CertificateRecord certificate_record(const Certification& certified, double wanted);
 OntoRecord onto_record(const ExtremalMap& result, const std::string& target);
 SolveRecord solve_record(const LeastMaximumMap& result, double seconds_total);
 CorrespondenceRecord correspondence_record(const ExtremalMapBetween& result, const std::string& target,

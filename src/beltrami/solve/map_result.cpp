@@ -12,6 +12,8 @@ const char* to_string(Termination termination) {
             return "iteration_limit";
         case Termination::not_teichmuller:
             return "not_teichmuller";
+        case Termination::below_bound:
+            return "below_bound";
     }
     return "unknown";
 }

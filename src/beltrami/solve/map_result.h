@@ -14,6 +14,9 @@ enum class Termination {
     /// Settled, but at a boundary vertex the boundary values alone force a larger dilatation than the K found: the
     /// extremal map is not of Teichmüller type and not unique.
     not_teichmuller,
+    /// Settled, but what is proved about K* is larger than the K found: the differentials at hand cannot show the
+    /// extremal φ. K is then the proved bound.
+    below_bound,
 };
 const char* to_string(Termination);
 

@@ -1,12 +1,15 @@
 #include <beltrami/teichmuller/certify.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <string>
 
 #include <beltrami/base/error.h>
 #include <beltrami/certificate/refined_problem.h>
+#include <beltrami/certificate/verified_bracket.h>
+#include <beltrami/teichmuller/record_proofs.h>
 
 namespace beltrami {
 
@@ -15,11 +18,9 @@ namespace {
 /// The space may grow on a finer mesh while that raises k by more than this part of the wanted gap.
 constexpr double kGrowthOfGap = 1e-3;
 
-/// Infinite without a Reich-Strebel bound.
+/// Infinite without a bound.
 double gap_of(const ExtremalMap& map) {
-    const bool bounded = std::any_of(map.bounds.begin(), map.bounds.end(),
-                                     [](const Bound& bound) { return bound.kind == "reich_strebel"; });
-    return bounded ? map.K / map.K_lower - 1 : std::numeric_limits<double>::infinity();
+    return map.K_lower > 1 || map.K == 1 ? map.K / map.K_lower - 1 : std::numeric_limits<double>::infinity();
 }
 
 /// The best bounds of all meshes, with the estimate of the mesh that has the largest.
@@ -42,6 +43,17 @@ void take_over(ExtremalMap& result, const ExtremalMap& finer) {
     if (bounds[1] && !bounds[0]->rigorous) kept.push_back(*bounds[1]);
     for (const Bound& bound : result.bounds)
         if (bound.kind != "reich_strebel" && bound.kind != "reich_strebel_estimate") kept.push_back(bound);
+    for (const Bound& other : finer.bounds) {  // proofs of the same problem on the finer mesh
+        if (!other.rigorous || other.of != Bound::Of::extremal || other.kind == "attained" ||
+            other.kind == "reich_strebel")
+            continue;
+        const auto same = std::find_if(kept.begin(), kept.end(), [&](const Bound& b) { return b.kind == other.kind; });
+        if (same == kept.end())
+            kept.push_back(other);
+        else if (other.K > same->K)
+            *same = other;
+    }
+    result.K_lower_proved = std::max(result.K_lower_proved, finer.K_lower_proved);
     if (finer.K_lower > result.K_lower) {  // else that mesh knows less, its estimate too
         result.K_lower = finer.K_lower;
         result.K = std::max(std::min(finer.K, result.K_max), result.K_lower);
@@ -71,6 +83,67 @@ std::string obstacle(const ExtremalMap& map, const std::vector<int>& turns) {
     return {};
 }
 
+std::string rounded(double value, bool up) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.5f", (up ? std::ceil(value * 1e5) : std::floor(value * 1e5)) / 1e5);
+    return text;
+}
+
+/// Of exactly the given polygons also what single vertices prove counts.
+void count_polygons(ExtremalMap& result) {
+    for (Bound& bound : result.bounds)
+        if (bound.of == Bound::Of::polygons) bound.of = Bound::Of::extremal;
+    raise_to_proofs(result);
+}
+
+/// The surface in triangles, or nothing where its quads are bent.
+std::optional<Surface> triangles_of(const Surface& source) {
+    if (all_triangles(source.mesh)) return source;
+    if (source.in_plane()) return cut_into_triangles(source);
+    return std::nullopt;
+}
+
+/// Tries to prove what is wanted.
+/// @return why not; empty: it is proved
+std::string prove(const Surface& source, const BoundaryCondition& boundary, double gap, const CertifyOptions& limits,
+                  Certification& done) {
+    ExtremalMap& result = done.result;
+    if (!boundary.lines.empty()) return "vertices are held to lines, for which no upper bound is verified";
+    const Surface split = result.split ? surface_of(result.split->mesh, result.split->metric) : source;
+    const std::optional<Surface> surface = triangles_of(split);
+    if (!surface) return "quads in space have no one surface, so no upper bound is verified";
+    if (surface->mesh.face_count() > limits.most_proof_triangles)
+        return "the mesh has " + std::to_string(surface->mesh.face_count()) +
+               " triangles, more than the limit of a proof, " + std::to_string(limits.most_proof_triangles);
+    VerifiedBracketOptions options;
+    options.gap = gap;
+    options.K_lower = result.K_lower_proved;
+    options.most_triangles = limits.most_proof_triangles;
+    options.most_rounds = limits.most_refinements;
+    options.least_progress = limits.least_progress;
+    std::optional<VerifiedBracket> found;
+    try {
+        found.emplace(verified_bracket(*surface, boundary, result.map, options));
+    } catch (const Error& error) {
+        if (error.cause() != Cause::not_solved && error.cause() != Cause::bad_mesh) throw;
+        return std::string("the verified map could not be found: ") + error.what();
+    }
+    const VerifiedBracket& bracket = *found;
+    done.K_upper = bracket.K_upper;
+    done.refinements = bracket.refinements;
+    done.proof_triangles = bracket.surface.mesh.face_count();
+    result.factorizations += bracket.factorizations;
+    if (bracket.pair > 1) {
+        std::erase_if(result.bounds,
+                      [&](const Bound& bound) { return bound.kind == "pair" && bound.K < bracket.pair; });
+        if (std::none_of(result.bounds.begin(), result.bounds.end(), [](const Bound& b) { return b.kind == "pair"; }))
+            result.bounds.push_back({"pair", bracket.pair, Bound::Of::extremal, true});
+        raise_to_proofs(result);
+    }
+    done.gap = done.K_upper / result.K_lower_proved - 1;
+    return done.gap <= gap ? "" : bracket.reason;
+}
+
 }  // namespace
 
 void CertifyOptions::validate() const {
@@ -79,8 +152,65 @@ void CertifyOptions::validate() const {
     };
     demand(most_triangles >= 1, "most_triangles must be at least 1");
     demand(most_refinements >= 0, "most_refinements must not be negative");
+    demand(most_proof_triangles >= 1, "most_proof_triangles must be at least 1");
     demand(least_progress >= 0 && least_progress < 1, "least_progress must lie between 0 and 1");
 }
+
+namespace {
+
+/// Refines the whole problem while that improves the estimate.
+/// @return why it ended; empty: the gap of the estimate is what is wanted
+std::string improve_estimate(const Surface& source, const Constraints& constraints, double gap,
+                             const ExtremalOptions& options, const CertifyOptions& limits, Certification& done) {
+    ExtremalOptions own = options;
+    std::optional<RefinedProblem> level;
+    Eigen::VectorXcd last = done.result.map.head(source.mesh.vertex_count());
+    Constraints finer_constraints = constraints;
+    finer_constraints.correspondence.waypoints.reset();  // the finer meshes start from the last map
+    own.sharpen = 0;
+    own.growth = std::min(options.growth, kGrowthOfGap * gap);
+    own.prove.reset();
+    for (int refinements = 0;; ++refinements) {
+        const double before = gap_of(done.result);
+        if (std::string why = obstacle(done.result, constraints.correspondence.turns); !why.empty()) return why;
+        if (before <= gap) return {};
+        const Surface& surface = level ? level->surface : source;
+        if (refinements >= limits.most_refinements)
+            return "refined " + std::to_string(refinements) + " times, which is the limit";
+        if (surface.mesh.face_count() > limits.most_triangles / 4)
+            return "the next mesh would have " + std::to_string(4LL * surface.mesh.face_count()) +
+                   " faces, more than the limit of " + std::to_string(limits.most_triangles);
+        RefinedProblem next = refined_problem(surface, level ? level->boundary : constraints.prescribed);
+        own.start = next.interpolated(last);
+        level.emplace(std::move(next));
+        ExtremalMap finer;
+        try {
+            finer_constraints.prescribed = level->boundary;
+            finer = extremal_map(level->surface, finer_constraints, own);
+        } catch (const Error& error) {
+            if (error.cause() == Cause::cancelled) throw;
+            return std::string("the finer mesh could not be solved: ") + error.what();
+        }
+        ++done.refinements;
+        if (!done.result.homotopy.holes.empty() && !finer.homotopy.same_turns(done.result.homotopy))
+            return "the map of the finer mesh is of another class";
+        last = finer.map.head(level->surface.mesh.vertex_count());
+        take_over(done.result, finer);
+        const double now = gap_of(done.result);
+        if (now <= gap || now < (1 - limits.least_progress) * before) continue;
+        std::string why = "a refinement did not lower it noticeably";
+        if (!finer.distortion.flipped.empty())
+            why += "; " + std::to_string(finer.distortion.flipped.size()) + " faces of the finer mesh are flipped";
+        else if (!finer.sharpest || finer.sharpest->safe_bound < 0.9 * done.result.K)
+            why += "; the extremal map is not smooth enough for the differentials at hand";
+        else
+            why += "; the corner at vertex " + std::to_string(finer.sharpest->vertex) + " forces K ≥ " +
+                   std::to_string(finer.sharpest->safe_bound);
+        return why;
+    }
+}
+
+}  // namespace
 
 Certification certify(const Surface& source, const Constraints& constraints, double gap, const ExtremalOptions& options,
                       const CertifyOptions& limits) {
@@ -91,72 +221,37 @@ Certification certify(const Surface& source, const Constraints& constraints, dou
                     "prescribe the boundary values");
     ExtremalOptions own = options;
     own.sharpen = std::max(0, options.sharpen.value_or(0));
+    if (!own.prove) own.prove = true;
     Certification done;
     done.result = extremal_map(source, constraints, own);
-    done.gap = gap_of(done.result);
-
-    std::optional<RefinedProblem> level;
-    Eigen::VectorXcd last = done.result.map.head(source.mesh.vertex_count());
-    Constraints finer_constraints = constraints;
-    finer_constraints.correspondence.waypoints.reset();  // the finer meshes start from the last map
-    own.sharpen = 0;
-    own.growth = std::min(options.growth, kGrowthOfGap * gap);
-    while (true) {
-        done.reason = obstacle(done.result, constraints.correspondence.turns);
-        if (!done.reason.empty() && !(done.gap <= gap && done.result.termination == Termination::not_teichmuller))
-            return done;
-        if (done.gap <= gap) {
-            done.reached = true;
-            done.reason = "the gap is " + percent(done.gap);
-            return done;
-        }
-        const Surface& surface = level ? level->surface : source;
-        if (done.refinements >= limits.most_refinements) {
-            done.reason = "the gap is " + percent(done.gap) + " after " + std::to_string(done.refinements) +
-                          " refinements, which is the limit";
-            return done;
-        }
-        if (surface.mesh.face_count() > limits.most_triangles / 4) {
-            done.reason = "the gap is " + percent(done.gap) + "; the next mesh would have " +
-                          std::to_string(4LL * surface.mesh.face_count()) + " faces, more than the limit of " +
-                          std::to_string(limits.most_triangles);
-            return done;
-        }
-        RefinedProblem next = refined_problem(surface, finer_constraints.prescribed);
-        own.start = next.interpolated(last);
-        level.emplace(std::move(next));
-        finer_constraints.prescribed = level->boundary;
-        const double before = done.gap;
-        ExtremalMap finer;
-        try {
-            finer = extremal_map(level->surface, finer_constraints, own);
-        } catch (const Error& error) {
-            if (error.cause() == Cause::cancelled) throw;
-            done.reason = "the gap is " + percent(before) + "; the finer mesh could not be solved: " + error.what();
-            return done;
-        }
-        ++done.refinements;
-        if (!done.result.homotopy.holes.empty() && !finer.homotopy.same_turns(done.result.homotopy)) {
-            done.reason = "the gap is " + percent(before) + "; the map of the finer mesh is of another class";
-            return done;
-        }
-        last = finer.map.head(level->surface.mesh.vertex_count());
-        take_over(done.result, finer);
-        done.gap = gap_of(done.result);
-        if (done.gap <= gap) continue;
-        if (!(done.gap < (1 - limits.least_progress) * before)) {
-            done.reason = "the gap is " + percent(done.gap) + " and a refinement did not lower it noticeably";
-            if (!finer.distortion.flipped.empty())
-                done.reason +=
-                    "; " + std::to_string(finer.distortion.flipped.size()) + " faces of the finer mesh are flipped";
-            else if (!finer.sharpest || finer.sharpest->safe_bound < 0.9 * done.result.K)
-                done.reason += "; the extremal map is not smooth enough for the differentials at hand";
-            else
-                done.reason += "; the corner at vertex " + std::to_string(finer.sharpest->vertex) + " forces K ≥ " +
-                               std::to_string(finer.sharpest->safe_bound);
-            return done;
-        }
+    count_polygons(done.result);
+    const std::string unproved = prove(source, constraints.prescribed, gap, limits, done);
+    done.reached = unproved.empty();
+    std::string estimate;
+    if (!done.reached) estimate = improve_estimate(source, constraints, gap, options, limits, done);
+    ExtremalMap& result = done.result;
+    if (result.K > done.K_upper) {  // an estimate that the bracket refutes
+        result.K = done.K_upper;
+        result.k = (result.K - 1) / (result.K + 1);
     }
+    done.gap = done.K_upper / result.K_lower_proved - 1;
+    done.estimated_gap = gap_of(result);
+    done.reached = done.gap <= gap;
+    std::string known = "K* at least " + rounded(result.K_lower_proved, false);
+    if (std::isfinite(done.K_upper)) {
+        result.bounds.push_back({"verified", done.K_upper, Bound::Of::extremal, true});
+        known = "K* in [" + rounded(result.K_lower_proved, false) + ", " + rounded(done.K_upper, true) +
+                "] (floating point), a gap of " + percent(done.gap);
+    }
+    if (done.reached) {
+        done.reason = "proved: " + known;
+    } else {
+        done.reason = "not proved: known is " + known + ", since " + unproved;
+        done.reason += "; the estimate is K = " + rounded(result.K, false) + ", " + percent(done.estimated_gap) +
+                       " above its lower bound";
+        if (!estimate.empty()) done.reason += " (" + estimate + ")";
+    }
+    return done;
 }
 
 }  // namespace beltrami

@@ -25,7 +25,7 @@ std::string corner_warning(const BoundaryCorner& corner);
 /// A part of the surface that pinned curves cut off: a problem of its own.
 struct ExtremalPiece {
     std::vector<int> faces;  ///< ascending
-    double k = 0, K = 1, K_lower = 1;
+    double k = 0, K = 1, K_lower = 1, K_lower_proved = 1;
     Termination termination = Termination::converged;
 };
 
@@ -61,9 +61,10 @@ struct ExtremalMap : MapResult {
     /// An estimate of k* and K*: √(I⁺/I⁻) = (1+k)/(1−k) for the map and the φ of its c-step, with the quadrature of the
     /// bounds; where k is large, of a better map (solution_bounds.h).
     double k = 0, K = 1;
-    double K_lower = 1;  ///< largest Reich-Strebel bound; 1 if there is none
-    double K_upper = 1;  ///< where boundaries slide: I⁺, from which K* is not far above at the extremal φ
-    double K_max = 0;    ///< largest K of a face; infinite if faces are flipped or collapsed
+    double K_lower = 1;         ///< the largest lower bound of K*, proved or estimated; 1 if there is none
+    double K_lower_proved = 1;  ///< the largest that is a proof up to floating point and quadrature
+    double K_upper = 1;         ///< where boundaries slide: I⁺, from which K* is not far above at the extremal φ
+    double K_max = 0;           ///< largest K of a face; infinite if faces are flipped or collapsed
     std::vector<Bound> bounds;
     std::optional<SplitProblem> split;    ///< the mesh that was mapped, if it is not the source itself
     HomotopyClass homotopy;               ///< of map, where boundary values are prescribed

@@ -39,6 +39,10 @@ struct ExtremalOptions : IterationOptions {
     /// better where K is large or the mesh coarse. Empty: 0 from k = .8 on, and on meshes of up to 10⁵
     /// samples where the bracket is wider than 1 %, else none; negative: never.
     std::optional<int> sharpen;
+    /// The bounds by moduli and by pairs of piecewise linear functions (proved_bounds.h), which cost about four
+    /// factorisations and a hundred solves: always, never, or, if empty, on meshes of up to 20 000 faces unless sharpen
+    /// is negative.
+    std::optional<bool> prove;
 
     // Where boundaries slide:
 

@@ -21,6 +21,7 @@
 #include <beltrami/teichmuller/prepared_problem.h>
 #include <beltrami/teichmuller/problem.h>
 #include <beltrami/teichmuller/problem_chart.h>
+#include <beltrami/teichmuller/record_proofs.h>
 #include <beltrami/teichmuller/sliding_solver.h>
 #include <beltrami/unfold/fold_free.h>
 
@@ -597,6 +598,7 @@ ExtremalMap ExtremalSolver::Implementation::record() const {
         result.warnings.push_back(
             "the map is far from constant dilatation: the mesh is too coarse for its shape, or the extremal map is not "
             "smooth; K is a rough estimate and K_lower may be far below K*");
+    record_proofs(source, boundary, options, result);
     return result;
 }
 

@@ -110,8 +110,10 @@ void PiecewiseSolver::merge(std::vector<ExtremalMap>& parts, ExtremalMap& whole)
         whole.factorizations += part.factorizations;
         whole.evened = whole.evened || part.evened;
         whole.folds_removed = whole.folds_removed || part.folds_removed;
-        whole.pieces.push_back({pieces_[p].faces, part.k, part.K, part.K_lower, part.termination});
-        if (part.termination == Termination::iteration_limit) whole.termination = Termination::iteration_limit;
+        whole.pieces.push_back({pieces_[p].faces, part.k, part.K, part.K_lower, part.K_lower_proved, part.termination});
+        if (part.termination == Termination::iteration_limit ||
+            (part.termination == Termination::below_bound && whole.termination == Termination::converged))
+            whole.termination = part.termination;
         if (part.K > parts[decisive].K) decisive = p;
         // Warnings about corners name vertices of the whole.
         if (part.sharpest) {
@@ -164,12 +166,14 @@ void PiecewiseSolver::merge_bounds(const std::vector<ExtremalMap>& parts, Extrem
     const Bound *lower = take("reich_strebel", false), *proved = take("reich_strebel", true);
     if (lower) whole.bounds.push_back(*lower);
     if (proved && proved != lower) whole.bounds.push_back(*proved);
-    for (const char* kind : {"reich_strebel_estimate", "averaged_estimate", "corner", "mesh_harmonic"})
+    for (const char* kind :
+         {"reich_strebel_estimate", "averaged_estimate", "corner", "edge_corner", "moduli", "pair", "mesh_harmonic"})
         if (const Bound* bound = take(kind, false)) whole.bounds.push_back(*bound);
     if (whole.distortion.flipped.empty()) whole.bounds.push_back({"attained", whole.K_max, Bound::Of::extremal, true});
     for (const ExtremalMap& part : parts) {
         whole.K = std::max(whole.K, part.K);
         whole.K_lower = std::max(whole.K_lower, part.K_lower);
+        whole.K_lower_proved = std::max(whole.K_lower_proved, part.K_lower_proved);
     }
     whole.k = (whole.K - 1) / (whole.K + 1);
 }

@@ -254,8 +254,9 @@ TEST(SharpenedBound, OfExtremalMapsOfLargeDilatation) {
                 EXPECT_FALSE(bound.rigorous);
                 EXPECT_NEAR(bound.K / map.K(), 1, 0.03);
             }
-            EXPECT_EQ(bound.rigorous,
-                      bound.kind == "reich_strebel" || bound.of == Bound::Of::mesh || bound.kind == "attained");
+            EXPECT_EQ(bound.rigorous, bound.kind == "reich_strebel" || bound.kind == "edge_corner" ||
+                                          bound.kind == "moduli" || bound.kind == "pair" ||
+                                          bound.of == Bound::Of::mesh || bound.kind == "attained");
         }
         EXPECT_TRUE(averaged);
         EXPECT_EQ(found.homotopy.holes[0].turns, turns);

@@ -233,8 +233,10 @@ TEST(ExtremalMap, MeshesWithoutInnerVertices) {
         }
         const Surface surface(mesh);
         const ExtremalMap result = extremal_map(surface, boundary_to_disk(surface, 0.1));
-        EXPECT_EQ(result.termination, Termination::converged);
+        // So few triangles cannot show the φ that the polygons' corners want.
+        EXPECT_NE(result.termination, Termination::iteration_limit);
         EXPECT_TRUE(result.one_to_one());
+        EXPECT_LE(result.K_lower_proved, result.K);
         EXPECT_LE(result.K_lower, result.K_max);
     }
 }

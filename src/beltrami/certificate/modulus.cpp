@@ -1,0 +1,238 @@
+#include <beltrami/certificate/modulus.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <queue>
+
+#include <beltrami/certificate/dirichlet_form.h>
+#include <beltrami/plane/polygon.h>
+
+namespace beltrami {
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+/// Images are on a side of a rectangle within this part of its size.
+constexpr double kOnSide = 1e-12;
+/// Largest cosine of an angle that is taken for a right one.
+constexpr double kRight = 1e-9;
+
+using detail::DirichletForm;
+
+/// The energy of the harmonic function that is 0 on some vertices and 1 on others, free elsewhere.
+double condenser_energy(const Operators& operators, const std::vector<int>& at_zero, const std::vector<int>& at_one,
+                        int& factorizations) {
+    std::vector<char> held(static_cast<std::size_t>(operators.vertex_count), 0);
+    Eigen::VectorXd u = Eigen::VectorXd::Zero(operators.vertex_count);
+    for (const int v : at_zero) held[v] = 1;
+    for (const int v : at_one) {
+        held[v] = 1;
+        u[v] = 1;
+    }
+    const DirichletForm form(operators, {}, held);
+    factorizations += form.factorization_count();
+    u -= form.solve(form.apply(u));
+    return form.energy(u);
+}
+
+/// The energy of the harmonic function on a ring that grows by 1 around: steps at the edges of a chain from loop to
+/// loop. Corners on the left of the chain carry the vertex' value plus 1.
+double period_energy(const Surface& ring, const Operators& operators, int& factorizations) {
+    const Topology& topology = ring.topology;
+    const int vertices = ring.mesh.vertex_count();
+    const FaceList& faces = ring.mesh.faces;
+    // A chain of vertices between the loops, by breadth.
+    std::vector<int> before(static_cast<std::size_t>(vertices), -2);
+    std::vector<std::vector<int>> next(static_cast<std::size_t>(vertices));
+    for (const auto& [a, b] : topology.edges) {
+        next[a].push_back(b);
+        next[b].push_back(a);
+    }
+    std::queue<int> queue;
+    for (const int v : topology.boundary_loops[0]) {
+        before[v] = -1;
+        queue.push(v);
+    }
+    std::vector<char> goal(static_cast<std::size_t>(vertices), 0);
+    for (const int v : topology.boundary_loops[1]) goal[v] = 1;
+    std::vector<int> chain;
+    while (!queue.empty() && chain.empty()) {
+        const int v = queue.front();
+        queue.pop();
+        for (const int w : next[v]) {
+            if (before[w] != -2) continue;
+            before[w] = v;
+            queue.push(w);
+            if (!goal[w]) continue;
+            for (int at = w; at >= 0; at = before[at]) chain.push_back(at);
+            break;
+        }
+    }
+    // Corners left of the chain: at every vertex of it the fan of faces on the left of the edges that come and go. The
+    // ends lie on the boundary, where the fan ends by itself.
+    std::vector<double> offset(static_cast<std::size_t>(faces.corner_count()), 0.0);
+    const auto cut = [&](int a, int b) {
+        const auto at = std::lower_bound(topology.edges.begin(), topology.edges.end(),
+                                         std::array<int, 2>{std::min(a, b), std::max(a, b)});
+        return static_cast<int>(at - topology.edges.begin());
+    };
+    std::vector<int> face_of(static_cast<std::size_t>(faces.corner_count()));
+    for (int f = 0; f < faces.size(); ++f)
+        for (int c = faces.first_corner(f); c < faces.first_corner(f) + faces.degree(f); ++c) face_of[c] = f;
+    std::vector<char> is_cut(static_cast<std::size_t>(topology.edge_count()), 0);
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i) is_cut[cut(chain[i], chain[i + 1])] = 1;
+    std::vector<std::vector<int>> corners_at(static_cast<std::size_t>(vertices));
+    for (int c = 0; c < faces.corner_count(); ++c) corners_at[faces.vertices()[c]].push_back(c);
+    const auto left_face = [&](int a, int b) {  // of the directed edge
+        const int e = cut(a, b);
+        return a < b ? topology.edge_faces[e][0] : topology.edge_faces[e][1];
+    };
+    for (std::size_t i = 0; i < chain.size(); ++i) {
+        const int v = chain[i];
+        std::vector<int> waiting;
+        const auto visit = [&](int f) {
+            if (f < 0) return;
+            for (int c = faces.first_corner(f); c < faces.first_corner(f) + faces.degree(f); ++c)
+                if (faces.vertices()[c] == v && offset[c] == 0) {
+                    offset[c] = 1;
+                    waiting.push_back(c);
+                }
+        };
+        if (i + 1 < chain.size()) visit(left_face(v, chain[i + 1]));
+        if (i > 0) visit(left_face(chain[i - 1], v));
+        while (!waiting.empty()) {
+            const int c = waiting.back(), f = face_of[c], n = faces.degree(f), first = faces.first_corner(f);
+            waiting.pop_back();
+            for (const int e : {topology.corner_edges[c], topology.corner_edges[first + (c - first + n - 1) % n]}) {
+                if (is_cut[e]) continue;
+                for (const int g : topology.edge_faces[e])
+                    if (g != f) visit(g);
+            }
+        }
+    }
+    std::vector<char> held(static_cast<std::size_t>(operators.vertex_count), 0);
+    held[operators.vertices.front()] = 1;
+    const DirichletForm form(operators, {}, held);
+    factorizations += form.factorization_count();
+    // Samples of a face have its corners in order.
+    const auto gradient_of = [&](int s, const Eigen::VectorXd& u) {
+        Complex sum = 0;
+        const int begin = operators.offsets[s], first = faces.first_corner(operators.faces[s]);
+        for (int j = begin; j < operators.offsets[s + 1]; ++j)
+            sum += (u[operators.vertices[j]] + offset[first + j - begin]) * operators.gradients[j];
+        return sum;
+    };
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(operators.vertex_count), u = force;
+    for (int s = 0; s < operators.sample_count(); ++s) {
+        const Complex along = operators.weights[s] * gradient_of(s, u);
+        for (int j = operators.offsets[s]; j < operators.offsets[s + 1]; ++j)
+            force[operators.vertices[j]] -= std::real(std::conj(operators.gradients[j]) * along);
+    }
+    u = form.solve(force);
+    double energy = 0;
+    for (int s = 0; s < operators.sample_count(); ++s) energy += operators.weights[s] * std::norm(gradient_of(s, u));
+    return energy;
+}
+
+}  // namespace
+
+Sides sides_between(const std::vector<int>& loop, const std::array<int, 4>& positions) {
+    Sides sides;
+    const int n = static_cast<int>(loop.size());
+    for (int i = 0; i < 4; ++i) {
+        const int from = positions[i];
+        int to = positions[(i + 1) % 4];
+        if (to <= from) to += n;
+        for (int p = from; p <= to; ++p) sides[i].push_back(loop[p % n]);
+    }
+    return sides;
+}
+
+ModulusBracket quadrilateral_modulus(const Operators& operators, const Sides& sides) {
+    ModulusBracket result{};
+    result.lower = 1 / condenser_energy(operators, sides[3], sides[1], result.factorizations);
+    result.upper = condenser_energy(operators, sides[0], sides[2], result.factorizations);
+    return result;
+}
+
+ModulusBracket ring_modulus(const Surface& ring, const Operators& operators) {
+    ModulusBracket result{};
+    const auto& loops = ring.topology.boundary_loops;
+    result.lower = 1 / condenser_energy(operators, loops[0], loops[1], result.factorizations);
+    result.upper = period_energy(ring, operators, result.factorizations);
+    return result;
+}
+
+ModulusBracket ring_modulus(const Surface& ring) {
+    return ring_modulus(ring, ring.operators);
+}
+
+double round_ring_modulus(Complex outer_centre, double outer_radius, Complex hole_centre, double hole_radius) {
+    const double apart = std::norm(hole_centre - outer_centre),
+                 c = (outer_radius * outer_radius + hole_radius * hole_radius - apart) /
+                     (2 * outer_radius * hole_radius);
+    return std::acosh(std::max(1.0, c)) / (2 * kPi);
+}
+
+double elliptic_ratio(double x, double complement) {
+    const auto integral = [](double m1) {  // 𝒦 with parameter 1 − m1
+        double a = 1, b = std::sqrt(m1);
+        while (std::abs(a - b) > 1e-16 * a) {
+            const double mean = 0.5 * (a + b);
+            b = std::sqrt(a * b);
+            if (mean == a) break;
+            a = mean;
+        }
+        return kPi / (2 * a);
+    };
+    return integral(x) / integral(complement);
+}
+
+double disk_modulus(const std::array<double, 4>& t) {
+    const auto chord = [&](int i, int j) { return std::abs(std::sin(0.5 * (t[j] - t[i]))); };
+    const double all = chord(0, 2) * chord(1, 3);
+    // Between arcs 30 and 12, cross ratio of their ends.
+    const double x = chord(1, 2) * chord(3, 0) / all, y = chord(0, 1) * chord(2, 3) / all;
+    return elliptic_ratio(x, y);
+}
+
+double modulus_ratio(const ModulusBracket& source, const ModulusBracket& image) {
+    return std::max({1.0, image.lower / source.upper, source.lower / image.upper});
+}
+
+std::optional<RectangleImage> rectangle_image(const std::vector<Complex>& images) {
+    const int n = static_cast<int>(images.size());
+    if (n < 4) return std::nullopt;
+    double size = 0;
+    for (const Complex z : images) size = std::max(size, std::abs(z - images[0]));
+    // Corners: where the loop turns by a right angle; it turns nowhere else.
+    std::vector<int> turns;
+    for (int i = 0; i < n; ++i) {
+        const Complex in = images[i] - images[(i + n - 1) % n], out = images[(i + 1) % n] - images[i];
+        const double scale = std::abs(in) * std::abs(out);
+        if (!(scale > 0)) return std::nullopt;
+        const Complex turn = out * std::conj(in) / scale;
+        if (turn.imag() > 0.5 && std::abs(turn.real()) < kRight)
+            turns.push_back(i);
+        else if (turn.real() < 0)
+            return std::nullopt;
+        if (turns.size() > 4) return std::nullopt;
+    }
+    if (turns.size() != 4) return std::nullopt;
+    RectangleImage result{{turns[0], turns[1], turns[2], turns[3]}, 0};
+    std::array<Complex, 4> corner;
+    for (int i = 0; i < 4; ++i) corner[i] = images[turns[i]];
+    for (int i = 0; i < 4; ++i) {
+        const Complex a = corner[i], side = corner[(i + 1) % 4] - a;
+        const int to = turns[(i + 1) % 4] > turns[i] ? turns[(i + 1) % 4] : turns[(i + 1) % 4] + n;
+        for (int p = turns[i]; p <= to; ++p)
+            if (std::abs(std::imag(std::conj(side) * (images[p % n] - a))) > kOnSide * size * std::abs(side))
+                return std::nullopt;
+    }
+    result.modulus = std::abs(corner[1] - corner[0]) / std::abs(corner[2] - corner[1]);
+    return result;
+}
+
+}  // namespace beltrami

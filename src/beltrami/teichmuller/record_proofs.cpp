@@ -1,0 +1,51 @@
+#include <beltrami/teichmuller/record_proofs.h>
+
+#include <algorithm>
+#include <limits>
+
+#include <beltrami/certificate/proved_bounds.h>
+
+namespace beltrami {
+
+namespace {
+
+/// Estimates of K that are below a proved bound by no more than this part are as good as the mesh lets them be.
+constexpr double kErrorOfEstimate = 0.01;
+
+}  // namespace
+
+double largest_proof(const std::vector<Bound>& bounds) {
+    double K = 1;
+    for (const Bound& bound : bounds)
+        if (bound.rigorous && bound.of == Bound::Of::extremal && bound.kind != "attained" && bound.kind != "verified")
+            K = std::max(K, bound.K);
+    return K;
+}
+
+void raise_to_proofs(ExtremalMap& result) {
+    result.K_lower_proved = largest_proof(result.bounds);
+    result.K_lower = std::max(result.K_lower, result.K_lower_proved);
+    const double found = result.K;
+    if (!(found < result.K_lower_proved)) return;
+    result.K = result.K_lower_proved;
+    result.k = (result.K - 1) / (result.K + 1);
+    if (!(found < (1 - kErrorOfEstimate) * result.K)) return;
+    if (result.termination == Termination::converged) result.termination = Termination::below_bound;
+    result.warnings.push_back("the iteration ended with K = " + std::to_string(found) +
+                              ", but no map with these boundary values has less than " + std::to_string(result.K) +
+                              ": the differentials at hand do not show the extremal map; a finer mesh would");
+}
+
+void record_proofs(const Surface& source, const BoundaryCondition& boundary, const ExtremalOptions& options,
+                   ExtremalMap& result) {
+    ProvedBoundsOptions how;
+    const bool never = options.sharpen.value_or(0) < 0;
+    if (options.prove || never)
+        how.most_faces_for_pairs = options.prove.value_or(false) ? std::numeric_limits<int>::max() : 0;
+    const ProvedBounds proved = proved_bounds(source, boundary, result.map, how);
+    result.factorizations += proved.factorizations;
+    result.bounds.insert(result.bounds.end(), proved.bounds.begin(), proved.bounds.end());
+    raise_to_proofs(result);
+}
+
+}  // namespace beltrami

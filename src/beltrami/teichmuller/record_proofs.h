@@ -1,0 +1,18 @@
+#pragma once
+
+#include <beltrami/teichmuller/extremal_map.h>
+
+namespace beltrami {
+
+/// Adds what can be proved about K* (proved_bounds.h) to a result, and raise_to_proofs().
+void record_proofs(const Surface& source, const BoundaryCondition& boundary, const ExtremalOptions& options,
+                   ExtremalMap& result);
+
+/// Raises K_lower_proved, K_lower and K to what the bounds prove; where the K found was clearly lower the termination
+/// and a warning say so.
+void raise_to_proofs(ExtremalMap& result);
+
+/// The largest rigorous lower bound of K* among bounds; 1 if there is none.
+double largest_proof(const std::vector<Bound>& bounds);
+
+}  // namespace beltrami
