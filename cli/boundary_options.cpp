@@ -159,6 +159,23 @@ BoundaryCondition BoundaryOptions::outer_values(const Surface& source) const {
     return {};
 }
 
+std::optional<TargetCurve> BoundaryOptions::curve(int loop) const {
+    for (const Circle& circle : circles_)
+        if (circle.loop == loop) return TargetCurve::circle(circle.centre, circle.radius);
+    if (loop != outer_) return {};
+    switch (target_) {
+        case Target::none:
+            return {};
+        case Target::disk:
+            return TargetCurve::circle(0, 1);
+        case Target::rectangle:
+            return TargetCurve::polygon({0, sizes_[0], {sizes_[0], sizes_[1]}, {0, sizes_[1]}});
+        case Target::polygon:
+            return TargetCurve::polygon(polygon_);
+    }
+    return {};
+}
+
 BoundaryCondition BoundaryOptions::values(const Surface& source) const {
     const int loops = static_cast<int>(source.topology.boundary_loops.size());
     if (outer_ > 0 && outer_ >= loops)

@@ -2,7 +2,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include <optional>
+
 #include <beltrami/charts/boundary_values.h>
+#include <beltrami/plane/target_curve.h>
 
 #include "files.h"
 
@@ -18,6 +21,8 @@ class BoundaryOptions {
     void load(const Mesh& source);
     /// What is prescribed. @pre load() @throw Error bad_option, bad_boundary
     BoundaryCondition values(const Surface& source) const;
+    /// The curve along which the values of a loop lie; nothing where none is given by --boundary or --hole.
+    std::optional<TargetCurve> curve(int loop) const;
     /// The loop whose image encloses the others.
     int outer_loop() const { return outer_; }
     /// Whether anything but the outer loop is given.

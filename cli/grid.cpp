@@ -129,11 +129,12 @@ class Grid final : public Command {
     MethodResult run_extremal_onto(const Surface& source, double start, TargetDomain& domain, Record& record) {
         target_.load(source, record.warnings);
         domain = *target_.domain();
-        Correspondence wanted;
-        wanted.outer_loop = outer_;
-        target_.apply(wanted);
-        MethodResult done = run_onto(source, target_, wanted, {}, start, !common_.quiet, record);
-        reach_corners(done.split ? *done.split : source, domain, record.onto->loops, wanted.marks, done.map);
+        Constraints constraints;
+        constraints.correspondence.outer_loop = outer_;
+        target_.apply(constraints);
+        MethodResult done = run_onto(source, target_, constraints, {}, start, !common_.quiet, record);
+        reach_corners(done.split ? *done.split : source, domain, record.onto->loops, constraints.correspondence.marks,
+                      done.map);
         return done;
     }
 

@@ -12,6 +12,7 @@
 #include "onto_options.h"
 #include "output.h"
 #include "page.h"
+#include "slide_option.h"
 #include "start_map_option.h"
 
 namespace beltrami::cli {
@@ -54,6 +55,7 @@ class Map final : public Command {
             ->capture_default_str();
         boundary_.add_to(*app);
         onto_.add_to(*app, OntoTarget::Kinds::prescribed_too);
+        slide_.add_to(*app);
         homotopy_.add_to(*app);
         start_map_.add_to(*app);
         iteration_.add_to(*app);
@@ -84,7 +86,7 @@ class Map final : public Command {
         add_findings(source.findings, record.warnings);
         record.source = source_record(source);
         if (onto_.prescribes()) return run_onto_surface(source, start, record);
-        if (onto_.given()) return run_onto_target(source, start, record);
+        if (onto_.given() || slide_.given()) return run_sliding(source, start, record);
         const BoundaryCondition boundary = boundary_.values(source);
 
         MethodResult result = solve(source, boundary, start, record);
@@ -120,17 +122,25 @@ class Map final : public Command {
         return write_onto(source, std::move(result), record);
     }
 
-    int run_onto_target(const Surface& source, double start, Record& record) {
-        onto_.load(source, record.warnings);
-        Correspondence wanted;
-        wanted.outer_loop = boundary_.outer_loop();
-        onto_.apply(wanted);
+    /// The boundary slides, or a part of it.
+    int run_sliding(const Surface& source, double start, Record& record) {
+        Constraints constraints;
+        constraints.correspondence.outer_loop = boundary_.outer_loop();
+        if (onto_.given()) {
+            onto_.load(source, record.warnings);
+            onto_.apply(constraints);
+        }
         homotopy_.refuse_turns();
-        homotopy_.apply(source, wanted);
+        homotopy_.apply(source, constraints.correspondence);
+        if (boundary_.given()) constraints.prescribed = boundary_.values(source);
+        constraints.arcs = slide_.arcs(source, boundary_);
+        if (!constraints.all_slides() && !compare_.empty())
+            throw Error(Cause::bad_option, "--compare is for boundaries that slide everywhere, or nowhere",
+                        "leave it out");
         ExtremalOptions options;
         iteration_.apply(options);
         MethodResult result =
-            run_onto(source, onto_, wanted, std::move(options), start, !common_.quiet, record, compare_);
+            run_onto(source, onto_, constraints, std::move(options), start, !common_.quiet, record, compare_);
         return write_onto(source, std::move(result), record);
     }
 
@@ -167,10 +177,10 @@ class Map final : public Command {
     void check_onto() const {
         const auto refuse = [](bool given, const std::string& what) {
             if (given)
-                throw Error(Cause::bad_option, what + " prescribes boundary values, with --onto the boundary slides",
+                throw Error(Cause::bad_option,
+                            what + " is about prescribed boundary values, with --onto or --slide they slide",
                             "leave one of them out");
         };
-        refuse(boundary_.given(), "--boundary, --hole or --pin");
         refuse(certify_.has_value(), "--certify");
         refuse(slack_ > 0, "--slack");
         refuse(minimize_ != "K", "--minimize");
@@ -194,18 +204,19 @@ class Map final : public Command {
         };
         add(homotopy_.inputs());
         add(onto_.inputs());
+        add(slide_.inputs());
         add(start_map_.inputs());
         add(metric_.inputs());
         inputs.push_back({"SOURCE", source_});
         std::vector<NamedFile> outputs = onto_.outputs();
         outputs.insert(outputs.begin(), {"-o", output_.path()});
         common_.check_files(inputs, std::move(outputs));
-        iteration_.check({method_, onto_.given() && !onto_.prescribes()});
+        iteration_.check({method_, (onto_.given() && !onto_.prescribes()) || slide_.given()});
         if (start_map_.given() && homotopy_.given())
             throw Error(Cause::bad_option,
                         "--start-map has a homotopy class of its own: --turns and --waypoints ask for one",
                         "leave one of them out");
-        if (onto_.given()) {
+        if (onto_.given() || slide_.given()) {
             onto_.prescribes() ? check_prescribed_onto() : check_onto();
             return;
         }
@@ -318,6 +329,7 @@ class Map final : public Command {
     OutputOptions output_;
     BoundaryOptions boundary_;
     OntoTarget onto_;
+    SlideOption slide_;
     HomotopyOptions homotopy_;
     StartMapOption start_map_;
     IterationOptions iteration_;

@@ -172,7 +172,7 @@ void run_t_map(const Surface& source, const TargetDomain& target, const Correspo
 
 }  // namespace
 
-MethodResult run_onto(const Surface& source, const OntoTarget& target, const Correspondence& wanted,
+MethodResult run_onto(const Surface& source, const OntoTarget& target, const Constraints& constraints,
                       ExtremalOptions options, double start, bool show, Record& record,
                       const std::vector<std::string>& compare) {
     MethodResult done;
@@ -182,7 +182,7 @@ MethodResult run_onto(const Surface& source, const OntoTarget& target, const Cor
             progress.show(iteration, k);
             return true;
         };
-        return extremal_map(source, target.constraints(wanted), options);
+        return extremal_map(source, constraints, options);
     }();
     if (target.surface()) {
         done.positions = std::move(result.positions);
@@ -199,7 +199,9 @@ MethodResult run_onto(const Surface& source, const OntoTarget& target, const Cor
     done.pages.push_back({"start", positions_of(result.start), distortion(used.operators, result.start).face_abs_mu});
     if (!compare.empty()) {
         const std::optional<CircleDomainChart>& circles = result.target_circles;
-        Correspondence own = circles ? correspondence_on_circles(wanted, *target.surface(), *circles) : wanted;
+        Correspondence own = circles
+                                 ? correspondence_on_circles(constraints.correspondence, *target.surface(), *circles)
+                                 : constraints.correspondence;
         own.loops.clear();
         for (const LoopOnto& loop : result.loops) own.loops.push_back({loop.loop, loop.curve});
         run_t_map(used, circles ? circle_target(*circles) : *target.domain(), own, done.pages, record);

@@ -43,7 +43,7 @@ const std::vector<std::string>& sliding_baseline_names();
 
 /// The extremal map onto a target; fills onto too.
 /// @param compare further methods for the record's comparison and the pages
-MethodResult run_onto(const Surface& source, const OntoTarget& target, const Correspondence& wanted,
+MethodResult run_onto(const Surface& source, const OntoTarget& target, const Constraints& constraints,
                       ExtremalOptions options, double start, bool show, Record& record,
                       const std::vector<std::string>& compare = {});
 

@@ -130,8 +130,13 @@ void OntoTarget::apply(Correspondence& wanted) const {
     for (const PlaceMark& mark : marks_) wanted.marks.push_back(nearest_mark(*domain_, mark.vertex, mark.place));
 }
 
-Constraints OntoTarget::constraints(Correspondence wanted) const {
-    return domain_ ? Constraints(*domain_, std::move(wanted)) : Constraints(*surface_, std::move(wanted));
+void OntoTarget::apply(Constraints& constraints) const {
+    apply(constraints.correspondence);
+    if (domain_) {
+        constraints.target = *domain_;
+    } else {
+        constraints.target = SurfaceTarget{&*surface_};
+    }
 }
 
 void OntoTarget::write_places(const std::vector<MeshPoint>& places) const {

@@ -42,8 +42,8 @@ class OntoTarget {
     const std::optional<Surface>& surface() const { return surface_; }
     /// Pairs and marks into what is wanted. @pre load()
     void apply(Correspondence& wanted) const;
-    /// The problem of sliding onto the target. @pre load()
-    Constraints constraints(Correspondence wanted) const;
+    /// The target too. @pre load()
+    void apply(Constraints& constraints) const;
     /// Writes --places, if it is wanted.
     void write_places(const std::vector<MeshPoint>& places) const;
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -12,6 +13,7 @@ namespace beltrami {
 /// in the order of the loop, to last.
 struct SlidingArc {
     int first = 0, last = 0;
+    std::optional<TargetCurve> along = {};  ///< nothing: the curve of the loop in the target
 };
 
 /// A target that is a surface, in the plane or in space: one component of genus 0.
@@ -26,6 +28,9 @@ struct SurfaceTarget {
 ///     Constraints(boundary)                  all boundary values are prescribed, pins and lines may be inside
 ///     Constraints(target)                    every boundary loop slides along its curve of the target
 ///     Constraints(target).pin(vertex, place) … and a vertex inside is pinned
+///
+/// Conditions mix: with a target, loops of which vertices are prescribed keep those, the rest of them slides; arcs
+/// slide between vertices of a loop whatever is prescribed of what is inside them.
 struct Constraints {
     BoundaryCondition prescribed;
     /// What loops slide along of which nothing is prescribed. None: nothing slides but arcs.
@@ -49,13 +54,17 @@ struct Constraints {
         prescribed.pin_to_line(vertex, point, direction);
         return *this;
     }
-    Constraints& slide(int first, int last) {
-        arcs.push_back({first, last});
+    Constraints& slide(int first, int last, std::optional<TargetCurve> along = {}) {
+        arcs.push_back({first, last, std::move(along)});
         return *this;
     }
 
     const TargetDomain* domain() const { return std::get_if<TargetDomain>(&target); }
     const SurfaceTarget* surface() const { return std::get_if<SurfaceTarget>(&target); }
+    /// Whether every loop slides and nothing but marks is prescribed.
+    bool all_slides() const {
+        return arcs.empty() && prescribed.empty() && !std::holds_alternative<std::monostate>(target);
+    }
     /// Whether nothing slides.
     bool all_prescribed() const { return arcs.empty() && std::holds_alternative<std::monostate>(target); }
 };

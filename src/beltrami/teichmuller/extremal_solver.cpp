@@ -439,6 +439,9 @@ struct ExtremalSolver::Implementation {
 };
 
 ExtremalSolver::ExtremalSolver(const Surface& source, const Constraints& constraints, const ExtremalOptions& options) {
+    if (!constraints.all_prescribed() && !constraints.all_slides())
+        throw Error(Cause::bad_option, "a solver is kept for boundaries that are prescribed or slide everywhere",
+                    "extremal_map solves problems in which they mix");
     if (!constraints.all_prescribed()) {
         sliding_ = std::make_unique<SlidingSolver>(source, constraints, options);
         return;

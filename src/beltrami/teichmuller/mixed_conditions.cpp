@@ -1,0 +1,83 @@
+#include <beltrami/teichmuller/mixed_conditions.h>
+
+#include <algorithm>
+#include <string>
+
+#include <beltrami/base/error.h>
+#include <beltrami/starts/loop_partners.h>
+
+namespace beltrami {
+
+namespace {
+
+/// The loop on which a vertex lies.
+int loop_of(const Surface& source, int vertex) {
+    const auto& loops = source.topology.boundary_loops;
+    for (std::size_t l = 0; l < loops.size(); ++l)
+        if (std::find(loops[l].begin(), loops[l].end(), vertex) != loops[l].end()) return static_cast<int>(l);
+    throw Error(Cause::bad_boundary, "vertex " + std::to_string(vertex) + ", the end of an arc, is not on the boundary",
+                "an arc runs along a boundary loop from one of its vertices to another", {vertex});
+}
+
+/// Whether every vertex of a loop is prescribed.
+std::vector<char> wholly_prescribed(const Surface& source, const BoundaryCondition& prescribed) {
+    std::vector<char> is_prescribed(source.mesh.vertex_count(), 0);
+    for (const int v : prescribed.vertices) is_prescribed[v] = 1;
+    std::vector<char> result;
+    for (const auto& loop : source.topology.boundary_loops)
+        result.push_back(std::all_of(loop.begin(), loop.end(), [&](int v) { return is_prescribed[v]; }));
+    return result;
+}
+
+/// The curve of the target for every loop.
+std::vector<int> partners(const Surface& source, const TargetDomain& target, const Correspondence& wanted,
+                          double edge_length) {
+    const std::size_t loops = source.topology.boundary_loops.size();
+    if (loops == 1 && target.curve_count() == 1) return {0};
+    const auto model = target_model(target, edge_length_for(source, target, edge_length));
+    return loop_partners(source, circle_domain_chart(source, wanted.outer_loop), *model, wanted).curves;
+}
+
+}  // namespace
+
+MixedConditions mixed_conditions(const Surface& source, const Constraints& constraints, double edge_length) {
+    require_genus_zero(source);
+    validate(constraints, source);
+    validate(constraints.prescribed, source);
+    const Correspondence& wanted = constraints.correspondence;
+    if (constraints.surface())
+        throw Error(Cause::bad_option, "conditions mix for targets in the plane only, not for a surface",
+                    "give its circle domain as the target");
+    if (!wanted.turns.empty() || wanted.waypoints)
+        throw Error(Cause::bad_option, "turns and waypoints are given where boundaries slide in part",
+                    "the class is that of the start: leave them out");
+    MixedConditions result;
+    result.outer_loop = wanted.outer_loop;
+    result.prescribed = constraints.prescribed;
+    result.arcs = constraints.arcs;
+    result.curves.resize(source.topology.boundary_loops.size());
+    std::vector<char> slides = wholly_prescribed(source, constraints.prescribed);
+    for (char& one : slides) one = !one;
+    for (const SlidingArc& arc : constraints.arcs) {
+        const int loop = loop_of(source, arc.first);
+        slides[loop] = 1;
+        if (arc.along) result.curves[loop] = arc.along;
+    }
+    if (const TargetDomain* target = constraints.domain()) {
+        const std::vector<int> curves = partners(source, *target, wanted, edge_length);
+        for (std::size_t l = 0; l < slides.size(); ++l)
+            if (slides[l] && !result.curves[l]) result.curves[l] = target->curve(curves[l]);
+        for (const Mark& mark : wanted.marks) {
+            const CurveParameter& place = on_curve(mark);
+            result.prescribed.pin(mark.vertex, target->curve(place.curve).point(place.parameter));
+        }
+    }
+    for (std::size_t l = 0; l < slides.size(); ++l)
+        if (slides[l] && !result.curves[l])
+            throw Error(Cause::bad_boundary,
+                        "boundary loop " + std::to_string(l) + " slides, in part at least, and has no curve",
+                        "give a target, or the curve of its arcs", {source.topology.boundary_loops[l][0]});
+    return result;
+}
+
+}  // namespace beltrami
