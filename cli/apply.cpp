@@ -127,7 +127,7 @@ class Apply final : public Command {
             fmt::print("{}", counted(points.rows().size(), "point", "points"));
             if (farthest_ > 0) fmt::print(", the farthest {:.3g} away from the surface", farthest_);
             fmt::print("\nwrote {}\n", output_);
-            for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
+            for (const std::string& warning : warnings) complain("warning: " + warning);
         }
         return 0;
     }

@@ -110,11 +110,11 @@ void BoundaryOptions::parse_holes() {
     }
 }
 
-void BoundaryOptions::read_pins(const Mesh& source) {
-    const IndexedRows rows =
-        read_indexed_rows(pin_file_, 1, source.vertex_count(), 2, "a pinned vertex", Stars::read_as_nan);
+void BoundaryOptions::read_pins(const MeshInput& source) {
+    const IndexedRows rows = read_indexed_rows(pin_file_, 1, static_cast<int>(source.numbers.size()), 2,
+                                               "a pinned vertex", Stars::read_as_nan);
     for (Eigen::Index i = 0; i < rows.indices.rows(); ++i) {
-        const int vertex = rows.indices(i, 0);
+        const int vertex = source.number_of(rows.indices(i, 0), "a pinned one");
         const double x = rows.values(i, 0), y = rows.values(i, 1);
         if (std::isnan(x) && std::isnan(y))
             throw Error(Cause::bad_boundary,
@@ -130,12 +130,14 @@ void BoundaryOptions::read_pins(const Mesh& source) {
     }
 }
 
-void BoundaryOptions::load(const Mesh& source) {
+void BoundaryOptions::load(const MeshInput& source) {
     if (!spec_.empty()) {
         parse_spec();
     } else if (!corners_.empty() || start_) {
         throw Error(Cause::bad_option, "--corners and --start say nothing without --boundary");
     }
+    for (int& corner : corners_) corner = source.number_of(corner, "a corner");
+    if (start_) start_ = source.number_of(*start_, "the start of the boundary");
     parse_holes();
     if (!pin_file_.empty()) read_pins(source);
 }

@@ -8,6 +8,7 @@
 #include <beltrami/plane/target_curve.h>
 
 #include "files.h"
+#include "mesh_input.h"
 
 namespace beltrami::cli {
 
@@ -17,14 +18,17 @@ class BoundaryOptions {
     void add_to(CLI::App& app);
     /// The files the options name.
     std::vector<NamedFile> inputs() const;
-    /// Reads the options and their files. @throw Error bad_option, unreadable, bad_boundary
-    void load(const Mesh& source);
+    /// Reads the options and their files; vertices are then numbered as in the mesh. @throw Error bad_option,
+    /// unreadable, bad_boundary
+    void load(const MeshInput& source);
     /// What is prescribed. @pre load() @throw Error bad_option, bad_boundary
     BoundaryCondition values(const Surface& source) const;
     /// The curve along which the values of a loop lie; nothing where none is given by --boundary or --hole.
     std::optional<TargetCurve> curve(int loop) const;
     /// The loop whose image encloses the others.
     int outer_loop() const { return outer_; }
+    /// Whether vertices or loops are named, which only one component has.
+    bool names_vertices() const { return !hole_specs_.empty() || !pin_file_.empty() || !corners_.empty() || start_; }
     /// Whether anything but the outer loop is given.
     bool given() const {
         return !spec_.empty() || !hole_specs_.empty() || !pin_file_.empty() || !corners_.empty() || start_;
@@ -41,7 +45,7 @@ class BoundaryOptions {
 
     void parse_spec();
     void parse_holes();
-    void read_pins(const Mesh& source);
+    void read_pins(const MeshInput& source);
     /// Of polygon:FILE.
     std::string polygon_file() const;
     BoundaryCondition outer_values(const Surface& source) const;

@@ -89,8 +89,12 @@ void finish(const Record& record, const CommonOptions& common, const std::string
             if (!file.empty() && file != "-") fmt::print("wrote {}\n", file);
     }
     if (!common.quiet)
-        for (const std::string& warning : record.warnings) fmt::print(stderr, "warning: {}\n", warning);
+        for (const std::string& warning : record.warnings) complain("warning: " + warning);
     if (std::fflush(stdout) != 0) throw Error(Cause::unwritable, "standard output could not be written");
+}
+
+void complain(const std::string& line) {
+    std::fputs((line + "\n").c_str(), stderr);
 }
 
 double seconds() {
@@ -100,12 +104,12 @@ double seconds() {
 Progress::Progress(bool wanted) : terminal_(wanted && isatty(STDERR_FILENO)) {}
 
 Progress::~Progress() {
-    if (used_) fmt::print(stderr, "\r\x1b[K");
+    if (used_) std::fputs("\r\x1b[K", stderr);
 }
 
 void Progress::show(int iteration, double value, const char* name) {
     if (!terminal_) return;
-    fmt::print(stderr, "\riteration {}  {} {:.6f}\x1b[K", iteration, name, value);
+    std::fputs(fmt::format("\riteration {}  {} {:.6f}\x1b[K", iteration, name, value).c_str(), stderr);
     std::fflush(stderr);
     used_ = true;
 }

@@ -30,6 +30,14 @@ class Command {
   public:
     virtual ~Command() = default;
     virtual int run() = 0;
+    /// What has been found before run() ended or gave up, to be printed beside an error too.
+    std::vector<std::string> warnings() const { return common_.quiet ? std::vector<std::string>() : record_.warnings; }
+    /// Options that may help a mesh that cannot be mapped; empty if none would.
+    virtual std::string hint() const { return {}; }
+
+  protected:
+    CommonOptions common_;
+    Record record_;
 };
 
 std::unique_ptr<Command> make_info(CLI::App& parent);
@@ -56,6 +64,9 @@ void add_findings(const std::vector<Finding>& findings, std::vector<std::string>
 /// the files otherwise.
 void finish(const Record& record, const CommonOptions& common, const std::string& method,
             const std::vector<std::string>& files);
+
+/// Writes a line to standard error; where that cannot be written nobody is listening.
+void complain(const std::string& line);
 
 /// Seconds since some fixed moment.
 double seconds();

@@ -7,6 +7,7 @@
 #include <beltrami/report/dendrogram.h>
 
 #include "command.h"
+#include "mesh_input.h"
 
 namespace beltrami::cli {
 
@@ -30,6 +31,7 @@ class DistanceCommand final : public Command {
             ->capture_default_str();
         app->add_option("--picture", picture_, "the matrix and the tree of its clusters, as SVG")
             ->type_name("FILE.svg");
+        options_.add_to(*app);
         common_.add_to(*app);
         app->footer(kExitCodes);
     }
@@ -41,12 +43,19 @@ class DistanceCommand final : public Command {
         inputs.reserve(meshes_.size());
         for (const std::string& mesh : meshes_) inputs.push_back({"MESH", mesh});
         common_.check_files(inputs, {{"--picture", picture_}});
-        Record record;
+        Record& record = record_;
         record.command = "distance";
         std::vector<Surface> surfaces;
         for (const std::string& mesh : meshes_) {
-            surfaces.emplace_back(load(mesh, record.warnings));
-            add_findings(surfaces.back().findings, record.warnings);
+            MeshInput input = options_.load(mesh, record.warnings);
+            try {
+                surfaces.emplace_back(std::move(input.mesh));
+            } catch (const Error& error) {
+                throw Error(error.cause(), mesh + ": " + error.what(), {}, error.indices());
+            }
+            std::vector<std::string> findings;
+            add_findings(surfaces.back().findings, findings);
+            for (const std::string& finding : findings) record.warnings.push_back(mesh + ": " + finding);
         }
         record.source = source_record(surfaces[0]);
         Correspondence wanted;
@@ -55,10 +64,11 @@ class DistanceCommand final : public Command {
         DistanceMatrix matrix;
         {
             Progress progress(!common_.quiet);
-            matrix = distance_matrix(surfaces, wanted, {}, [&](int done, int all) {
+            const auto show = [&](int done, int all) {
                 progress.show(done, static_cast<double>(all), "of");
                 return true;
-            });
+            };
+            matrix = distance_matrix(surfaces, wanted, {}, show, meshes_);
         }
         for (const auto& [i, j] : matrix.unsettled)
             record.warnings.push_back(meshes_[i] + " and " + meshes_[j] +
@@ -69,6 +79,12 @@ class DistanceCommand final : public Command {
         if (common_.may_print()) print(matrix);
         finish(record, common_, {}, {common_.json, picture_});
         return 0;
+    }
+
+    std::string hint() const override {
+        for (const std::string& mesh : meshes_)
+            if (const std::string hint = options_.hint(mesh); !hint.empty()) return mesh + ": " + hint;
+        return {};
     }
 
   private:
@@ -94,7 +110,7 @@ class DistanceCommand final : public Command {
     std::vector<std::string> meshes_;
     std::string match_ = "position", picture_;
     int outer_ = 0;
-    CommonOptions common_;
+    MeshInputOptions options_;
 };
 
 }  // namespace

@@ -1,7 +1,10 @@
+#include <beltrami/base/error.h>
+#include <beltrami/charts/fold_free_disk.h>
 #include <beltrami/charts/round_disk.h>
 #include <beltrami/uniformize/flatten.h>
 
 #include "command.h"
+#include "mesh_input.h"
 #include "output.h"
 #include "page.h"
 #include "words.h"
@@ -19,6 +22,7 @@ class Flatten final : public Command {
             ->required();
         output_.add_to(*app);
         app->add_flag("--disk", disk_, "go on to the round unit disk");
+        options_.add_to(*app);
         common_.add_to(*app);
         app->footer(kExitCodes);
     }
@@ -26,23 +30,32 @@ class Flatten final : public Command {
     int run() override {
         output_.check();
         common_.check_files({{"SOURCE", source_}}, {{"-o", output_.path()}});
-        Record record;
+        Record& record = record_;
         record.command = "flatten";
-        Mesh mesh = load(source_, record.warnings);
+        MeshInput input = options_.load(source_, record.warnings);
         const double start = seconds();
-        const Surface source(std::move(mesh));
+        const Surface source(std::move(input.mesh));
         add_findings(source.findings, record.warnings);
         record.source = source_record(source);
         SolveRecord solve;
         Eigen::VectorXcd map;
         if (disk_) {
             Chart chart = round_disk_chart(source);
-            map = std::move(chart.vertices);
             solve.factorizations = chart.factorizations;
             record.warnings.insert(record.warnings.end(), chart.warnings.begin(), chart.warnings.end());
+            FoldFreeDisk disk = fold_free_disk(source, chart.vertices);
+            solve.factorizations += disk.factorizations;
+            if (!disk.fold_free)
+                throw Error(
+                    Cause::not_solved,
+                    "the map to the disk has folds that do not open: faces differ so much in size that rounding "
+                    "decides about them",
+                    "remesh the surface, with edges of like length side by side");
+            if (disk.changed) record.warnings.push_back(what_was_mended(disk));
+            map = std::move(disk.map);
         } else {
             Flattening flat = flatten(source.mesh);
-            map = std::move(flat.positions);
+            map = input.unit * flat.positions;  // edges of the boundary keep their lengths
             solve.iterations = flat.iterations;
             solve.factorizations = flat.factorizations;
             if (!flat.flipped.empty())
@@ -53,19 +66,31 @@ class Flatten final : public Command {
         solve.termination = to_string(Termination::converged);
         solve.seconds_total = seconds() - start;
         record.solve = solve;
-        const Distortion d = distortion(source.operators, map);
+        const Distortion d = distortion(source.operators, disk_ ? map : Eigen::VectorXcd(map / input.unit));
         record.map = map_record(d);
-        output_.write(source.mesh, map, d);
+        output_.write(source.mesh, map, d, input.attributes, input.unit);
         write_page(common_.report, source.mesh, {{"conformal", positions_of(map), d.face_abs_mu}}, {}, record, source_);
         finish(record, common_, "conformal", {output_.path(), common_.json, common_.report});
         return 0;
     }
 
+    std::string hint() const override { return options_.hint(source_); }
+
   private:
+    static std::string what_was_mended(const FoldFreeDisk& disk) {
+        const std::string boundary =
+            !disk.kept_boundary ? "its boundary does not go round once, so that arc length decides about its places; "
+            : disk.moved_boundary > 0
+                ? counted(disk.moved_boundary, "boundary edge runs", "boundary edges run") + " backwards or too short; "
+                : "";
+        return "the conformal map is not one-to-one on this mesh: " + boundary +
+               "this is the map without folds nearest to a conformal one";
+    }
+
     std::string source_;
     bool disk_ = false;
+    MeshInputOptions options_;
     OutputOptions output_;
-    CommonOptions common_;
 };
 
 }  // namespace

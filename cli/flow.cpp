@@ -9,6 +9,7 @@
 #include "boundary_options.h"
 #include "command.h"
 #include "homotopy_options.h"
+#include "mesh_input.h"
 #include "metric_option.h"
 #include "mu_option.h"
 #include "onto_options.h"
@@ -53,20 +54,21 @@ class Flow final : public Command {
                         "the coefficient and for that of the map at hand for the rest")
             ->capture_default_str()
             ->type_name("E");
+        mesh_options_.add_to(*app);
         common_.add_to(*app);
         app->footer(kExitCodes);
     }
 
     int run() override {
         check();
-        Record record;
+        Record& record = record_;
         record.command = "flow";
-        Mesh mesh = load(source_, record.warnings);
-        boundary_.load(mesh);
+        input_ = mesh_options_.load(source_, record.warnings);
+        boundary_.load(input_);
         homotopy_.load();
-        metric_.load(mesh);
+        metric_.load(input_);
         const double start = seconds();
-        const Surface source = metric_.surface_of(std::move(mesh));
+        const Surface source = metric_.surface_of(std::move(input_.mesh));
         add_findings(source.findings, record.warnings);
         record.source = source_record(source);
         const Eigen::VectorXcd mu = coefficient_.values(source);
@@ -80,6 +82,8 @@ class Flow final : public Command {
         }
         return 0;
     }
+
+    std::string hint() const override { return mesh_options_.hint(source_); }
 
   private:
     void check() const {
@@ -153,7 +157,7 @@ class Flow final : public Command {
         if (!measured.flipped.empty())
             record.warnings.push_back("flipped faces in the result: " + std::to_string(measured.flipped.size()) +
                                       "; it is not one-to-one there");
-        output_.write(source.mesh, map, measured);
+        output_.write(source.mesh, map, measured, input_.attributes, input_.unit);
         close(source, map, measured, record);
     }
 
@@ -172,7 +176,7 @@ class Flow final : public Command {
     }
 
     void slide(const Surface& source, const Eigen::VectorXcd& mu, double start, Record& record) {
-        onto_.load(source, record.warnings);
+        onto_.load(input_, record.warnings);
         Correspondence where;
         where.outer_loop = boundary_.outer_loop();
         onto_.apply(where);
@@ -204,10 +208,11 @@ class Flow final : public Command {
         if (circles) {
             const std::vector<Complex> images(flow.map.begin(), flow.map.end());
             const std::vector<MeshPoint> places = locate_in_chart(*onto_.surface(), circles->chart.vertices, images);
-            output_.write(source.mesh, positions_on(onto_.surface()->mesh, places), flow.map, flow.distortion);
+            output_.write(source.mesh, positions_on(onto_.surface()->mesh, places), flow.map, flow.distortion,
+                          input_.attributes);
             onto_.write_places(places);
         } else {
-            output_.write(source.mesh, flow.map, flow.distortion);
+            output_.write(source.mesh, flow.map, flow.distortion, input_.attributes, input_.unit);
         }
         close(source, flow.map, flow.distortion, record);
     }
@@ -230,7 +235,8 @@ class Flow final : public Command {
     HomotopyOptions homotopy_;
     StartMapOption start_map_;
     MetricOption metric_;
-    CommonOptions common_;
+    MeshInputOptions mesh_options_;
+    MeshInput input_;
 };
 
 }  // namespace

@@ -11,6 +11,7 @@
 
 #include "command.h"
 #include "map_methods.h"
+#include "mesh_input.h"
 #include "onto_options.h"
 #include "output.h"
 #include "page.h"
@@ -71,28 +72,30 @@ class Grid final : public Command {
                         "where on SURFACE every vertex of the grid lies: a line `vertex face a b c wa wb wc` each, "
                         "the face's vertices a b c with their barycentric weights")
             ->type_name("FILE");
+        fit_.add_to(*app);
+        options_.add_to(*app);
         common_.add_to(*app);
         app->footer(kExitCodes);
     }
 
     int run() override {
         check();
-        Record record;
+        Record& record = record_;
         record.command = "grid";
-        Mesh mesh = load(source_, record.warnings);
+        MeshInput input = options_.load(source_, record.warnings);
         const double start = seconds();
-        const Surface source(std::move(mesh));
+        const Surface source(std::move(input.mesh));
         add_findings(source.findings, record.warnings);
         record.source = source_record(source);
         TargetDomain domain = TargetDomain{TargetCurve::circle(0, 1), {}};
-        MethodResult result = map_ == "extremal" ? run_extremal_onto(source, start, domain, record)
+        MethodResult result = map_ == "extremal" ? run_extremal_onto(source, input, start, domain, record)
                                                  : run_conformal(source, start, domain, record);
         const Surface& mapped = result.split ? *result.split : source;
 
         const PlaneGrid lines = fitting_grid(domain, cells_, kLines.at(lines_));
         GridOptions how;
         how.border = border_ == "trimmed" ? GridOptions::Border::trimmed : GridOptions::Border::stepped;
-        const SurfaceGrid grid = grid_on_surface(mapped, result.map, lines, how);
+        SurfaceGrid grid = grid_on_surface(mapped, result.map, lines, how);
         record.grid = grid_record(grid, source.mesh);
         record.grid->carried_by = map_;
         record.grid->lines = lines_of(lines);
@@ -101,12 +104,15 @@ class Grid final : public Command {
         record.grid->checker = pattern_ == "checker";
         add_warnings(grid, record);
 
+        grid.mesh.positions *= input.unit;
         write_grid(grid);
         if (!places_.empty()) write_places(places_, grid.parents);
         write_page(common_.report, mapped.mesh, std::move(result.pages), result.history, record, source_);
         finish(record, common_, map_, {output_, places_, common_.json, common_.report});
         return 0;
     }
+
+    std::string hint() const override { return options_.hint(source_); }
 
   private:
     void check() const {
@@ -126,8 +132,9 @@ class Grid final : public Command {
             throw Error(Cause::bad_option, stray + " belongs to --onto");
     }
 
-    MethodResult run_extremal_onto(const Surface& source, double start, TargetDomain& domain, Record& record) {
-        target_.load(source, record.warnings);
+    MethodResult run_extremal_onto(const Surface& source, const MeshInput& input, double start, TargetDomain& domain,
+                                   Record& record) {
+        target_.load(input, record.warnings);
         domain = *target_.domain();
         Constraints constraints;
         constraints.correspondence.outer_loop = outer_;
@@ -164,6 +171,11 @@ class Grid final : public Command {
         record.solve->factorizations = chart.factorizations;
         record.solve->seconds_total = seconds() - start;
         record.warnings.insert(record.warnings.end(), chart.chart.warnings.begin(), chart.chart.warnings.end());
+        if (!chart.converged)
+            record.warnings.push_back("the conformal map that carries the grid stopped after " +
+                                      counted(chart.steps, "step", "steps") +
+                                      " before its circles settled: its holes are not quite round, and angles are off "
+                                      "near them");
         done.pages.push_back({"conformal", positions_of(done.map), done.distortion.face_abs_mu});
         return done;
     }
@@ -185,13 +197,15 @@ class Grid final : public Command {
             columns[0].values[f] = column, columns[1].values[f] = row;
             if (pattern_ == "checker") shades.push_back((column + row) % 2 == 0 ? Shade::light : Shade::dark);
         }
-        write_mesh(output_, {grid.mesh, positions_of(grid.parameter), std::move(columns), std::move(shades)});
+        write_mesh(output_,
+                   {grid.mesh, fit_.fitted(positions_of(grid.parameter)), std::move(columns), std::move(shades)});
     }
 
     std::string source_, output_, map_ = "extremal", lines_ = "auto", pattern_ = "grid", border_ = "stepped", places_;
     int cells_ = 40, outer_ = 0;
     OntoTarget target_;
-    CommonOptions common_;
+    MeshInputOptions options_;
+    FitOption fit_;
 };
 
 }  // namespace

@@ -1,11 +1,15 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include <beltrami/base/error.h>
+#include <beltrami/mesh/diagnosis.h>
+#include <beltrami/mesh/topology.h>
 #include <beltrami/meshing/quality.h>
 
 #include "command.h"
+#include "mesh_input.h"
 #include "words.h"
 
 namespace beltrami::cli {
@@ -17,6 +21,7 @@ class Info final : public Command {
     explicit Info(CLI::App& parent) {
         CLI::App* app = parent.add_subcommand("info", "what a mesh is: size, topology, quality, defects");
         app->add_option("MESH", mesh_, "OBJ, PLY, OFF or STL")->required();
+        options_.add_to(*app);
         common_.add_to(*app);
         app->footer(kExitCodes);
     }
@@ -25,14 +30,25 @@ class Info final : public Command {
         if (!common_.report.empty())
             throw Error(Cause::bad_option, "info has no map to report on", "use map or measure with --report");
         common_.check_files({{"MESH", mesh_}});
-        Record record;
+        Record& record = record_;
         record.command = "info";
-        const Mesh mesh = load(mesh_, record.warnings);
+        MeshInput input = options_.load(mesh_, record.warnings);
+        Mesh& mesh = input.mesh;
+        mesh.positions *= input.unit;  // nothing here needs squares of areas
         const std::vector<Finding> findings = diagnose(mesh);
         add_findings(findings, record.warnings);
-        bool fatal = false;
-        for (const Finding& finding : findings) fatal = fatal || finding.fatal;
-        record.source = fatal ? source_record(mesh) : source_record(Surface(mesh));
+        bool fatal = false, has_topology = true;
+        for (const Finding& finding : findings) {
+            fatal = fatal || finding.fatal;
+            has_topology = has_topology && !spoils_topology(finding.defect);
+        }
+        record.source = has_topology ? source_record(mesh, topology(mesh)) : source_record(mesh);
+        const bool mendable = std::any_of(findings.begin(), findings.end(), [](const Finding& finding) {
+            return finding.defect == Defect::inconsistent_orientation || finding.defect == Defect::several_components;
+        });
+        if (mendable)
+            if (const std::string hint = options_.hint(mesh_); !hint.empty())
+                record.warnings.push_back("hint: " + hint);
         if (common_.may_print()) print(mesh, record.source);
         finish(record, common_, {}, {});
         return fatal ? exit_code(Cause::bad_mesh) : 0;
@@ -60,7 +76,7 @@ class Info final : public Command {
     }
 
     std::string mesh_;
-    CommonOptions common_;
+    MeshInputOptions options_;
 };
 
 }  // namespace

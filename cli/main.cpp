@@ -1,8 +1,11 @@
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <numeric>
 #include <set>
 
@@ -17,6 +20,15 @@ namespace {
 extern "C" void interrupted(int) {
     beltrami::remove_temporaries_from_signal_handler();
     _exit(130);
+}
+
+/// A standard stream that is closed would give its number to the first file that is opened, and words meant for it
+/// would go into that file. Standard output is then one that cannot be written, standard error one that takes
+/// everything.
+void occupy_closed_streams() {
+    const auto closed = [](int descriptor) { return ::fcntl(descriptor, F_GETFD) == -1 && errno == EBADF; };
+    for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (closed(descriptor)) ::open("/dev/null", descriptor == STDERR_FILENO ? O_WRONLY : O_RDONLY);
 }
 
 int edit_distance(const std::string& a, const std::string& b) {
@@ -68,6 +80,10 @@ int main(int argc, char** argv) {
     using namespace beltrami;
     std::signal(SIGINT, interrupted);
     std::signal(SIGTERM, interrupted);
+    // Writing beyond a limit, or to a pipe that nobody reads, is then an error like others, and temporary files go.
+    std::signal(SIGXFSZ, SIG_IGN);
+    std::signal(SIGPIPE, SIG_IGN);
+    occupy_closed_streams();
 
     CLI::App app{"Extremal quasiconformal (Teichmüller) maps of meshes: maps that stretch least, with a certificate.",
                  "beltrami"};
@@ -104,10 +120,20 @@ int main(int argc, char** argv) {
     add(cli::make_distance);
     add(cli::make_apply);
 
+    const cli::Command* running = nullptr;
+    const auto fail = [&](const std::string& sentence, int code) {
+        if (running)
+            for (const std::string& warning : running->warnings()) cli::complain("warning: " + warning);
+        cli::complain("beltrami: " + sentence);
+        return code;
+    };
     try {
         app.parse(argc, argv);
-        for (auto& [sub, command] : commands)
-            if (sub->parsed()) return command->run();
+        for (auto& [sub, command] : commands) {
+            if (!sub->parsed()) continue;
+            running = command.get();
+            return command->run();
+        }
         return 1;
     } catch (const CLI::CallForHelp& help) {
         app.exit(help);
@@ -115,16 +141,22 @@ int main(int argc, char** argv) {
     } catch (const CLI::Success& success) {  // --version and its like
         return app.exit(success);
     } catch (const CLI::ParseError& error) {
-        fmt::print(stderr, "beltrami: {}{}\nTry 'beltrami --help'.\n", error.what(), suggestion(app));
-        return cli::exit_code(Cause::bad_option);
+        return fail(fmt::format("{}{}\nTry 'beltrami --help'.", error.what(), suggestion(app)),
+                    cli::exit_code(Cause::bad_option));
     } catch (const Error& error) {
-        fmt::print(stderr, "beltrami: {}\n", error.what());
-        return cli::exit_code(error.cause());
+        std::string hint;
+        if (running && error.cause() == Cause::bad_mesh) {
+            try {
+                hint = running->hint();
+            } catch (const std::exception&) {  // what ails the mesh has been said
+            }
+        }
+        return fail(error.what() + (hint.empty() ? hint : "\nhint: " + hint), cli::exit_code(error.cause()));
     } catch (const std::bad_alloc&) {
-        fmt::print(stderr, "beltrami: out of memory\n");
-        return 1;
+        return fail("out of memory", 1);
     } catch (const std::exception& error) {
-        fmt::print(stderr, "beltrami: internal error: {}\n", error.what());
-        return 1;
+        if (std::ferror(stdout) != 0)
+            return fail("standard output could not be written", cli::exit_code(Cause::unwritable));
+        return fail(fmt::format("internal error: {}", error.what()), 1);
     }
 }

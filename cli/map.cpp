@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include <beltrami/base/error.h>
@@ -5,15 +7,18 @@
 
 #include "boundary_options.h"
 #include "command.h"
+#include "components.h"
 #include "homotopy_options.h"
 #include "iteration_options.h"
 #include "map_methods.h"
+#include "mesh_input.h"
 #include "metric_option.h"
 #include "onto_options.h"
 #include "output.h"
 #include "page.h"
 #include "slide_option.h"
 #include "start_map_option.h"
+#include "words.h"
 
 namespace beltrami::cli {
 
@@ -69,25 +74,32 @@ class Map final : public Command {
             ->delimiter(',')
             ->check(CLI::IsMember(others))
             ->type_name("METHOD,...");
+        app->add_flag("--each-component", each_component_,
+                      "map the components one by one, each by itself with --boundary, and put the images in a row");
+        options_.allow_each_component();
+        options_.add_to(*app);
         common_.add_to(*app);
         app->footer(kExitCodes);
     }
 
     int run() override {
         check();
-        Record record;
+        Record& record = record_;
         record.command = "map";
-        Mesh mesh = load(source_, record.warnings);
-        boundary_.load(mesh);
+        input_ = options_.load(source_, record.warnings);
+        boundary_.load(input_);
         homotopy_.load();
-        metric_.load(mesh);
+        metric_.load(input_);
         const double start = seconds();
-        const Surface source = metric_.surface_of(std::move(mesh));
+        const Surface source = metric_.surface_of(std::move(input_.mesh));
         add_findings(source.findings, record.warnings);
         record.source = source_record(source);
         if (onto_.prescribes()) return run_onto_surface(source, start, record);
         if (onto_.given() || slide_.given()) return run_sliding(source, start, record);
-        const BoundaryCondition boundary = boundary_.values(source);
+        if (each_component_) return run_components(source, record);
+        if (source.topology.genus > 0) require_genus_zero(source);
+        BoundaryCondition boundary = boundary_.values(source);
+        const double unit = into_units(boundary);
 
         MethodResult result = solve(source, boundary, start, record);
         const Surface& mapped = result.split ? *result.split : source;
@@ -97,17 +109,19 @@ class Map final : public Command {
             !source.topology.boundary_loops.empty())
             record.solve->seconds_harmonic = harmonic_seconds(source, boundary);
 
-        output_.write(mapped.mesh, result.map, result.distortion);
+        output_.write(mapped.mesh, unit * result.map, result.distortion, attributes_of(result), input_.unit);
         const std::string name = result.pages[0].name;
         write_page(common_.report, mapped.mesh, std::move(result.pages), result.history, record, source_);
         finish(record, common_, name, {output_.path(), common_.json, common_.report});
         return 0;
     }
 
+    std::string hint() const override { return options_.hint(source_); }
+
   private:
     /// Onto a mesh on whose boundary that of the source is prescribed.
     int run_onto_surface(const Surface& source, double start, Record& record) {
-        onto_.load(source, record.warnings);
+        onto_.load(input_, record.warnings);
         Correspondence wanted;
         wanted.outer_loop = boundary_.outer_loop();
         homotopy_.apply(source, wanted);
@@ -122,12 +136,70 @@ class Map final : public Command {
         return write_onto(source, std::move(result), record);
     }
 
+    int run_components(const Surface& source, Record& record) {
+        std::vector<double> units;
+        MethodResult result = map_components(
+            source,
+            [&](const Surface& component, Record& own) {
+                BoundaryCondition boundary = boundary_.values(component);
+                units.push_back(into_units(boundary));
+                return solve(component, boundary, seconds(), own);
+            },
+            record);
+        const Surface& mapped = result.split ? *result.split : source;
+        output_.write(mapped.mesh, units[0] * result.map, result.distortion, attributes_of(result), input_.unit);
+        write_page(common_.report, mapped.mesh, std::move(result.pages), {}, record, source_);
+        if (common_.may_print())
+            for (const ComponentRecord& part : record.components)
+                fmt::print("{} from face {}: {}{}, {}\n", counted(part.faces, "face", "faces"), part.first_face,
+                           part.map.K ? fmt::format("K {:.4f}, ", *part.map.K) : "",
+                           counted(part.map.flipped, "flip", "flips"), part.solve.termination);
+        finish(record, common_, "components", {output_.path(), common_.json, common_.report});
+        return 0;
+    }
+
+    void check_each_component() const {
+        const auto refuse = [](bool given, const std::string& what) {
+            if (given)
+                throw Error(Cause::bad_option, what + " is about one component, --each-component about all",
+                            "leave one of them out");
+        };
+        refuse(onto_.given() || slide_.given(), "--onto or --slide");
+        refuse(homotopy_.given(), "--turns or --waypoints");
+        refuse(metric_.given(), "--metric");
+        refuse(boundary_.names_vertices(), "--corners, --start, --pin or --hole");
+        refuse(!compare_.empty(), "--compare");
+    }
+
+    /// Goes over to the unit of the prescribed images, or, where nothing is prescribed, to that of the source; returns
+    /// it.
+    double into_units(BoundaryCondition& boundary) {
+        double size = 0;
+        for (const Complex image : boundary.images) size = std::max(size, std::abs(image - boundary.images[0]));
+        const bool given = boundary.vertices.size() > 1 || !boundary.lines.empty();
+        const double unit = given ? unit_of(size) : input_.unit;
+        for (Complex& image : boundary.images) image /= unit;
+        for (BoundaryCondition::Line& line : boundary.lines) line.point /= unit;
+        unit_ = unit;
+        return unit;
+    }
+
+    /// What the file of the source says of the mesh that was mapped.
+    FileAttributes attributes_of(const MethodResult& result) const {
+        if (!result.split) return input_.attributes;
+        std::vector<std::vector<int>> vertices;
+        for (std::size_t v = 0; v < input_.vertices.size(); ++v) vertices.push_back({static_cast<int>(v)});
+        for (const std::vector<int>& added : record_.split->added)
+            vertices.emplace_back(added.begin() + 1, added.end());
+        return carried(input_.attributes, vertices, result.face_parents);
+    }
+
     /// The boundary slides, or a part of it.
     int run_sliding(const Surface& source, double start, Record& record) {
         Constraints constraints;
         constraints.correspondence.outer_loop = boundary_.outer_loop();
         if (onto_.given()) {
-            onto_.load(source, record.warnings);
+            onto_.load(input_, record.warnings);
             onto_.apply(constraints);
         }
         homotopy_.refuse_turns();
@@ -147,9 +219,9 @@ class Map final : public Command {
     int write_onto(const Surface& source, MethodResult result, const Record& record) const {
         const Surface& mapped = result.split ? *result.split : source;
         if (result.positions) {
-            output_.write(mapped.mesh, *result.positions, result.map, result.distortion);
+            output_.write(mapped.mesh, *result.positions, result.map, result.distortion, attributes_of(result));
         } else {
-            output_.write(mapped.mesh, result.map, result.distortion);
+            output_.write(mapped.mesh, result.map, result.distortion, attributes_of(result), input_.unit);
         }
         onto_.write_places(result.places);
         const std::string name = result.pages[0].name;
@@ -211,6 +283,7 @@ class Map final : public Command {
         std::vector<NamedFile> outputs = onto_.outputs();
         outputs.insert(outputs.begin(), {"-o", output_.path()});
         common_.check_files(inputs, std::move(outputs));
+        if (each_component_) check_each_component();
         iteration_.check({method_, (onto_.given() && !onto_.prescribes()) || slide_.given()});
         if (start_map_.given() && homotopy_.given())
             throw Error(Cause::bad_option,
@@ -265,6 +338,7 @@ class Map final : public Command {
             ExtremalOptions options;
             options.slack = slack_;
             options.start = start_map_.load(source.mesh, record.warnings);
+            if (options.start) *options.start /= unit_;
             const int free = free_parts(source, boundary);
             if (free > 0) {
                 if (certify_)
@@ -325,7 +399,11 @@ class Map final : public Command {
     std::string source_, method_ = "extremal", minimize_ = "K";
     std::optional<double> certify_;
     double slack_ = 0;
+    bool each_component_ = false;
     std::vector<std::string> compare_;
+    MeshInputOptions options_;
+    MeshInput input_;
+    double unit_ = 1;  // of the images
     OutputOptions output_;
     BoundaryOptions boundary_;
     OntoTarget onto_;
@@ -334,7 +412,6 @@ class Map final : public Command {
     StartMapOption start_map_;
     IterationOptions iteration_;
     MetricOption metric_;
-    CommonOptions common_;
 };
 
 }  // namespace

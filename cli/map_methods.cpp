@@ -20,6 +20,8 @@ using Baseline = BaselineMap (*)(const Surface&, const BoundaryCondition&, const
 
 const std::map<std::string, Baseline>& baselines() {
     static const std::map<std::string, Baseline> methods{{"harmonic", harmonic_baseline},
+                                                         {"tutte", tutte_baseline},
+                                                         {"mean-value", mean_value_baseline},
                                                          {"lscm", lscm_baseline},
                                                          {"arap", arap_baseline},
                                                          {"mips", mips_baseline},
@@ -53,6 +55,7 @@ MethodResult finished(ExtremalMap result, const Surface& source, double start, R
     record_findings(result, source, record);
     MethodResult done;
     done.split = split_surface(result.split);
+    if (result.split) done.face_parents = result.split->face_parents;
     const Surface& used = done.split ? *done.split : source;
     done.history = std::move(result.history);
     done.pages.push_back({"extremal", positions_of(result.map), result.distortion.face_abs_mu});
@@ -66,7 +69,8 @@ MethodResult finished(ExtremalMap result, const Surface& source, double start, R
 }  // namespace
 
 const std::vector<std::string>& baseline_names() {
-    static const std::vector<std::string> names{"harmonic", "lscm", "arap", "mips", "alternation", "qc"};
+    static const std::vector<std::string> names{"harmonic", "tutte", "mean-value",  "lscm",
+                                                "arap",     "mips",  "alternation", "qc"};
     return names;
 }
 
@@ -133,6 +137,7 @@ MethodResult run_least_maximum(const Surface& source, const Constraints& constra
     append(record.warnings, result.warnings);
     MethodResult done;
     done.split = split_surface(result.split);
+    if (result.split) done.face_parents = result.split->face_parents;
     done.pages.push_back({"least maximum", positions_of(result.map), result.distortion.face_abs_mu});
     if (result.extremal)
         done.pages.push_back({"extremal", positions_of(result.extremal->map), result.extremal->distortion.face_abs_mu});
@@ -194,6 +199,7 @@ MethodResult run_onto(const Surface& source, const OntoTarget& target, const Con
     if (result.split) record.split = split_record(*result.split, source.mesh.vertex_count());
     append(record.warnings, result.warnings);
     done.split = split_surface(result.split);
+    if (result.split) done.face_parents = result.split->face_parents;
     const Surface& used = done.split ? *done.split : source;
     done.pages.push_back({"extremal", positions_of(result.map), result.distortion.face_abs_mu});
     done.pages.push_back({"start", positions_of(result.start), distortion(used.operators, result.start).face_abs_mu});

@@ -14,6 +14,7 @@ const std::vector<std::string>& baseline_names();
 /// A map with what the outputs show of it. The mesh is the source's, or the split one.
 struct MethodResult {
     std::optional<Surface> split;        ///< the mesh that was mapped, if it is not the source itself
+    std::vector<int> face_parents;       ///< of split: the source's face of each of its faces
     Eigen::VectorXcd map;                ///< #V
     Distortion distortion;               ///< of map
     std::vector<PageMap> pages;          ///< the map first

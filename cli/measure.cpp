@@ -6,6 +6,7 @@
 #include <beltrami/operators/distortion.h>
 
 #include "command.h"
+#include "mesh_input.h"
 #include "page.h"
 #include "words.h"
 
@@ -53,26 +54,35 @@ class Measure final : public Command {
         app->add_flag("--certify", certify_,
                       "prove how much any map of SOURCE, a disk, with the same boundary values stretches at least, "
                       "beside what this one attains");
+        options_.add_to(*app);
         common_.add_to(*app);
         app->footer(kExitCodes);
     }
 
     int run() override {
         common_.check_files({{"SOURCE", source_}, {"IMAGE", image_}});
-        Record record;
+        Record& record = record_;
         record.command = "measure";
-        const Mesh source = load(source_, record.warnings);
+        input_ = options_.load(source_, record.warnings);
+        const Mesh& source = input_.mesh;
         record.source = examine(source, record.warnings);
         const Distortion d = image_.empty() ? to_texture(source) : to_mesh(source, record.warnings);
         record.map = map_record(d);
         if (certify_) add_bounds(source, *record.map);
-        warn_of(d.flipped, "face is flipped", "faces are flipped", record.warnings);
+        if (!d.flipped.empty() && static_cast<int>(d.flipped.size()) == source.face_count()) {
+            record.warnings.push_back(source.face_count() == 1 ? "the only face is flipped: the image is mirrored"
+                                                               : "every face is flipped: the image is mirrored");
+        } else {
+            warn_of(d.flipped, "face is flipped", "faces are flipped", record.warnings);
+        }
         warn_of(d.degenerate, "face collapses", "faces collapse", record.warnings);
         write_page(common_.report, page_mesh_ ? *page_mesh_ : source, {{"measured", image_positions_, d.face_abs_mu}},
                    {}, record, source_);
         finish(record, common_, "measured", {common_.json, common_.report});
         return 0;
     }
+
+    std::string hint() const override { return options_.hint(source_); }
 
   private:
     static void warn_of(const std::vector<int>& faces, const char* one, const char* many,
@@ -106,7 +116,8 @@ class Measure final : public Command {
     }
 
     Distortion to_texture(const Mesh& source) {
-        const Positions corners = texture_corners(source);
+        Positions corners = texture_corners(source);
+        corners /= unit_of(extent_of(corners));
         if (certify_) map_ = per_vertex(source, corners);
         if (!common_.report.empty()) split_at_corners(source, corners);
         return distortion_to_corners(source, corners);
@@ -129,11 +140,19 @@ class Measure final : public Command {
     }
 
     Distortion to_mesh(const Mesh& source, std::vector<std::string>& warnings) {
-        const Mesh image = load(image_, warnings);
-        if (image.vertex_count() != source.vertex_count() || image.faces != source.faces)
+        const LoadedMesh read = read_mesh(image_);
+        const FaceList& faces = input_.file_faces ? *input_.file_faces : source.faces;
+        warnings.insert(warnings.end(), read.warnings.begin(), read.warnings.end());
+        if (read.mesh.vertex_count() != static_cast<int>(input_.numbers.size()) || read.mesh.faces != faces)
             throw Error(Cause::bad_mesh, "SOURCE and IMAGE do not have the same vertices and faces in the same order",
                         "write both from one program without reordering");
-        if (!image.positions.allFinite()) throw Error(Cause::bad_mesh, "IMAGE has coordinates that are not finite");
+        if (!read.mesh.positions.allFinite()) throw Error(Cause::bad_mesh, "IMAGE has coordinates that are not finite");
+        Mesh image;  // mended as the source was
+        image.faces = source.faces;
+        image.positions.resize(source.vertex_count(), read.mesh.positions.cols());
+        for (int v = 0; v < source.vertex_count(); ++v)
+            image.positions.row(v) = read.mesh.positions.row(input_.vertices[v]);
+        image.positions /= unit_of(extent_of(image.positions));
         if (certify_) {
             if (!is_planar(image))
                 throw Error(Cause::bad_mesh, "IMAGE does not lie in the plane",
@@ -144,10 +163,16 @@ class Measure final : public Command {
         return distortion_to(source, image);
     }
 
+    static double extent_of(const Positions& points) {
+        if (points.rows() == 0) return 0;
+        return (points.colwise().maxCoeff() - points.colwise().minCoeff()).maxCoeff();
+    }
+
     std::string source_, image_;
     bool certify_ = false;
     Eigen::VectorXcd map_;  ///< #V, for certify_
-    CommonOptions common_;
+    MeshInputOptions options_;
+    MeshInput input_;
     Positions image_positions_;
     std::optional<Mesh> page_mesh_;
 };

@@ -16,11 +16,13 @@ std::vector<NamedFile> MetricOption::inputs() const {
     return {{"--metric", metric_}};
 }
 
-void MetricOption::load(const Mesh& mesh) {
+void MetricOption::load(const MeshInput& input) {
     if (!from_file()) return;
-    const IndexedRows rows = read_indexed_rows(metric_, 2, mesh.vertex_count(), 1, "an edge of the metric");
+    const IndexedRows rows =
+        read_indexed_rows(metric_, 2, static_cast<int>(input.numbers.size()), 1, "an edge of the metric");
     for (Eigen::Index i = 0; i < rows.indices.rows(); ++i)
-        lengths_.push_back({rows.indices(i, 0), rows.indices(i, 1), rows.values(i, 0)});
+        lengths_.push_back({input.number_of(rows.indices(i, 0), "an end of an edge"),
+                            input.number_of(rows.indices(i, 1), "an end of an edge"), rows.values(i, 0)});
 }
 
 Surface MetricOption::surface_of(Mesh mesh) const {

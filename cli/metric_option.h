@@ -5,6 +5,7 @@
 #include <beltrami/operators/surface.h>
 
 #include "files.h"
+#include "mesh_input.h"
 
 namespace beltrami::cli {
 
@@ -12,10 +13,11 @@ namespace beltrami::cli {
 class MetricOption {
   public:
     void add_to(CLI::App& app);
+    bool given() const { return !metric_.empty(); }
     /// The files the option names.
     std::vector<NamedFile> inputs() const;
     /// Reads the file. @throw Error unreadable
-    void load(const Mesh& mesh);
+    void load(const MeshInput& input);
     /// The mesh with its metric. @pre load() @throw Error bad_mesh
     Surface surface_of(Mesh mesh) const;
 

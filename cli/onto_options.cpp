@@ -74,7 +74,7 @@ std::vector<NamedFile> OntoTarget::inputs() const {
             {"--correspondence", correspondence_file_}};
 }
 
-void OntoTarget::load(const Surface& source, std::vector<std::string>& warnings) {
+void OntoTarget::load(const MeshInput& input, std::vector<std::string>& warnings) {
     if (lower_case_extension(path_) == ".json") {
         domain_ = read_target_domain(path_);
     } else if (kinds_ == Kinds::domains) {
@@ -93,20 +93,30 @@ void OntoTarget::load(const Surface& source, std::vector<std::string>& warnings)
                         "`beltrami info` prints the loops' numbers");
         pairs_.push_back({*loop, *partner});
     }
-    read_marks(source);
+    read_marks(input, warnings);
     if (!places_.empty() && domain_)
         throw Error(Cause::bad_option, "--places is about the faces of a mesh, TARGET is a domain", "leave it out");
 }
 
-void OntoTarget::read_marks(const Surface& source) {
+void OntoTarget::read_marks(const MeshInput& input, std::vector<std::string>& warnings) {
     if (!marks_file_.empty()) {
         if (!domain_)
             throw Error(Cause::bad_option, "--marks is about the curves of a domain, TARGET is a mesh",
                         "give --mark-vertices");
-        const IndexedRows rows =
-            read_indexed_rows(marks_file_, 1, source.mesh.vertex_count(), 2, "a marked vertex with its place");
-        for (Eigen::Index i = 0; i < rows.indices.rows(); ++i)
-            marks_.push_back({rows.indices(i, 0), Complex(rows.values(i, 0), rows.values(i, 1))});
+        const IndexedRows rows = read_indexed_rows(marks_file_, 1, static_cast<int>(input.numbers.size()), 2,
+                                                   "a marked vertex with its place");
+        for (Eigen::Index i = 0; i < rows.indices.rows(); ++i) {
+            marks_.push_back(
+                {input.number_of(rows.indices(i, 0), "a marked one"), Complex(rows.values(i, 0), rows.values(i, 1))});
+            const auto& [vertex, place] = marks_.back();
+            const Mark mark = nearest_mark(*domain_, vertex, place);
+            const double part = distance_from(*domain_, mark, place);
+            if (part > kFarMark)
+                warnings.push_back(
+                    fmt::format("the place of the marked vertex {} is {:.2g} % of the length of {} away "
+                                "from that curve, the nearest one; its nearest point is taken",
+                                vertex, 100 * part, curve_name(on_curve(mark).curve)));
+        }
     }
     const auto read_pairs = [&](const std::string& option, const std::string& file, const char* instead) {
         std::vector<std::array<int, 2>> pairs;
@@ -116,7 +126,7 @@ void OntoTarget::read_marks(const Surface& source) {
         const IndexedRows rows =
             read_indexed_rows(file, 2, std::numeric_limits<int>::max(), 0, "a vertex with its partner");
         for (Eigen::Index i = 0; i < rows.indices.rows(); ++i)
-            pairs.push_back({rows.indices(i, 0), rows.indices(i, 1)});
+            pairs.push_back({input.number_of(rows.indices(i, 0), "one with a partner"), rows.indices(i, 1)});
         return pairs;
     };
     mark_vertices_ = read_pairs("--mark-vertices", mark_vertices_file_, "give --marks");

@@ -3,6 +3,7 @@
 #include <beltrami/base/error.h>
 #include <beltrami/io/extension.h>
 #include <beltrami/io/write_mesh.h>
+#include <beltrami/mesh/planar.h>
 
 #include "page.h"
 
@@ -13,7 +14,19 @@ void OutputOptions::add_to(CLI::App& app) {
                    "OBJ (the map as vt), PLY (the map as u, v and per face mu_re, mu_im, abs_mu, K) or OFF")
         ->required()
         ->type_name("OUT");
+    fit_.add_to(app);
     app.add_flag("--as-positions", as_positions_, "write the map as vertex positions (z = 0) instead of vt");
+}
+
+void FitOption::add_to(CLI::App& app) {
+    app.add_option("--fit", fit_,
+                   "unit: the texture coordinates are moved and scaled, uniformly, into the square [0,1] x [0,1]")
+        ->check(CLI::IsMember({"none", "unit"}))
+        ->capture_default_str();
+}
+
+Positions FitOption::fitted(Positions points) const {
+    return fit_ == "unit" ? fitted_to_unit_square(points) : points;
 }
 
 void require_mesh_format(const std::string& path) {
@@ -45,19 +58,36 @@ Mesh mesh_at(const Positions& positions, const FaceList& faces) {
     return image;
 }
 
+/// Normals are those of other positions.
+FileAttributes without_normals(FileAttributes attributes) {
+    std::erase_if(attributes.vertex_columns, [](const FileColumn& column) {
+        return column.name == "nx" || column.name == "ny" || column.name == "nz";
+    });
+    return attributes;
+}
+
 }  // namespace
 
-void OutputOptions::write(const Mesh& source, const Eigen::VectorXcd& map, const Distortion& distortion) const {
-    if (!as_positions_) {
-        write_mesh(path_, {source, positions_of(map), columns_of(distortion)});
-        return;
+void OutputOptions::write(const Mesh& source, const Eigen::VectorXcd& map, const Distortion& distortion,
+                          const FileAttributes& attributes, double unit) const {
+    const Positions points = fit_.fitted(positions_of(map));
+    if (as_positions_) {
+        write_mesh(path_, {mesh_at(points, source.faces), {}, columns_of(distortion), {}, without_normals(attributes)});
+    } else if (unit == 1) {
+        write_mesh(path_, {source, points, columns_of(distortion), {}, attributes});
+    } else {
+        write_mesh(path_,
+                   {mesh_at(unit * source.positions, source.faces), points, columns_of(distortion), {}, attributes});
     }
-    write_mesh(path_, {mesh_at(positions_of(map), source.faces), {}, columns_of(distortion)});
 }
 
 void OutputOptions::write(const Mesh& source, const Positions& images, const Eigen::VectorXcd& map,
-                          const Distortion& distortion) const {
-    write_mesh(path_, {mesh_at(images, source.faces), positions_of(map), columns_of(distortion)});
+                          const Distortion& distortion, const FileAttributes& attributes) const {
+    write_mesh(path_, {mesh_at(images, source.faces),
+                       fit_.fitted(positions_of(map)),
+                       columns_of(distortion),
+                       {},
+                       without_normals(attributes)});
 }
 
 }  // namespace beltrami::cli

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <beltrami/io/file_attributes.h>
 #include <beltrami/operators/distortion.h>
 
 namespace beltrami::cli {
@@ -9,7 +10,18 @@ namespace beltrami::cli {
 /// @throw Error bad_option if the extension of -o's file is that of no format
 void require_mesh_format(const std::string& path);
 
-/// -o OUT and --as-positions: where and how a planar map of a mesh is written.
+/// --fit: the size of texture coordinates that are written.
+class FitOption {
+  public:
+    void add_to(CLI::App& app);
+    /// The points moved and scaled uniformly into the unit square, if that is wanted.
+    Positions fitted(Positions points) const;
+
+  private:
+    std::string fit_ = "none";
+};
+
+/// -o OUT, --as-positions and --fit: where and how a planar map of a mesh is written.
 class OutputOptions {
   public:
     void add_to(CLI::App& app);
@@ -17,14 +29,18 @@ class OutputOptions {
     /// @throw Error bad_option if the extension is that of no format
     void check() const;
     /// Vertices and faces of the source in their order, with the map as vt (or as positions) and, in PLY, μ per face.
-    void write(const Mesh& source, const Eigen::VectorXcd& map, const Distortion& distortion) const;
+    /// @param attributes of the source's file
+    /// @param unit       of the source's positions
+    void write(const Mesh& source, const Eigen::VectorXcd& map, const Distortion& distortion,
+               const FileAttributes& attributes = {}, double unit = 1) const;
     /// The same for a map onto a surface: vertices stand at their images there, with the plane map as vt.
-    void write(const Mesh& source, const Positions& images, const Eigen::VectorXcd& map,
-               const Distortion& distortion) const;
+    void write(const Mesh& source, const Positions& images, const Eigen::VectorXcd& map, const Distortion& distortion,
+               const FileAttributes& attributes = {}) const;
 
   private:
     std::string path_;
     bool as_positions_ = false;
+    FitOption fit_;
 };
 
 }  // namespace beltrami::cli

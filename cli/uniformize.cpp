@@ -4,6 +4,7 @@
 #include <beltrami/charts/uniformization.h>
 
 #include "command.h"
+#include "mesh_input.h"
 #include "metric_option.h"
 #include "output.h"
 #include "page.h"
@@ -35,6 +36,7 @@ class Uniformize final : public Command {
             ->check(CLI::NonNegativeNumber)
             ->type_name("h");
         metric_.add_to(*app);
+        options_.add_to(*app);
         common_.add_to(*app);
         app->footer(kExitCodes);
     }
@@ -44,12 +46,12 @@ class Uniformize final : public Command {
         std::vector<NamedFile> inputs = metric_.inputs();
         inputs.push_back({"SOURCE", source_});
         common_.check_files(inputs, {{"-o", output_.path()}});
-        Record record;
+        Record& record = record_;
         record.command = "uniformize";
-        Mesh mesh = load(source_, record.warnings);
-        metric_.load(mesh);
+        MeshInput input = options_.load(source_, record.warnings);
+        metric_.load(input);
         const double start = seconds();
-        const Surface source = metric_.surface_of(std::move(mesh));
+        const Surface source = metric_.surface_of(std::move(input.mesh));
         add_findings(source.findings, record.warnings);
         record.source = source_record(source);
         check(source);
@@ -69,12 +71,14 @@ class Uniformize final : public Command {
             record.warnings.push_back(counted(d.flipped.size(), "face comes", "faces come") +
                                       " out turned over; the first is face " + std::to_string(d.flipped[0]));
         record.map = map_record(d);
-        output_.write(source.mesh, found.map, d);
+        output_.write(source.mesh, found.map, d, input.attributes, input.unit);
         write_page(common_.report, source.mesh, {{"conformal", positions_of(found.map), d.face_abs_mu}}, {}, record,
                    source_);
         finish(record, common_, "conformal", {output_.path(), common_.json, common_.report});
         return 0;
     }
+
+    std::string hint() const override { return options_.hint(source_); }
 
   private:
     void check(const Surface& source) const {
@@ -105,7 +109,7 @@ class Uniformize final : public Command {
     std::optional<int> centre_;
     OutputOptions output_;
     MetricOption metric_;
-    CommonOptions common_;
+    MeshInputOptions options_;
 };
 
 }  // namespace

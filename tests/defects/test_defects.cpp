@@ -213,6 +213,16 @@ TEST(Defects, FoldedPlanarFace) {
     EXPECT_TRUE(diagnose(crease).empty());
 }
 
+TEST(Defects, ReflexQuad) {
+    for (const double scale : {1e-150, 1.0, 1e150}) {
+        expect_only(planar({{0, 0}, {2 * scale, 0}, {0.4 * scale, 0.4 * scale}, {0, 2 * scale}}, {{0, 1, 2, 3}}),
+                    Defect::reflex_quad, false, {0});
+        EXPECT_TRUE(diagnose(planar({{0, 0}, {2 * scale, 0}, {scale, scale}, {0, 2 * scale}}, {{0, 1, 2, 3}})).empty())
+            << "a straight corner";
+    }
+    EXPECT_FALSE(spoils_topology(Defect::reflex_quad));
+}
+
 TEST(Defects, FatalOnesComeFirstAndSentencesStayShort) {
     Mesh mesh = rectangle(1, 1, 30, 30);
     mesh.positions.conservativeResize(1000, 2);

@@ -41,9 +41,22 @@ BaselineMap harmonic_baseline(const Surface& source, const BoundaryCondition& bo
                               const BaselineOptions& options = {});
 
 /// The least-squares conformal map (Lévy et al. 2002): two or more pins, or none; what is not pinned is free.
+/// Without pins the areas of the image add up to that of the source.
 /// @throw Error bad_mesh, bad_boundary, not_solved
 BaselineMap lscm_baseline(const Surface& source, const BoundaryCondition& boundary,
                           const BaselineOptions& options = {});
+
+/// Tutte's map (1963): every vertex inside in the mean of its neighbours. Where a disk goes to a convex polygon no face
+/// folds; the shapes of the source play no part. Elsewhere a warning says that folds are not excluded.
+/// @pre every boundary vertex is prescribed
+/// @throw Error bad_mesh, bad_boundary, not_solved
+BaselineMap tutte_baseline(const Surface& source, const BoundaryCondition& boundary,
+                           const BaselineOptions& options = {});
+
+/// The same with Floater's mean value weights (2003), which see the shapes: affine maps of a disk in the plane come out
+/// exactly.
+BaselineMap mean_value_baseline(const Surface& source, const BoundaryCondition& boundary,
+                                const BaselineOptions& options = {});
 
 /// As rigid as possible (Liu, Zhang, Xu, Gotsman, Gortler 2008): a local minimum of Σ A ‖Df − R‖², R the nearest
 /// rotation, by alternation, one factorisation and as many solves as iterations. Any number of pins. It starts from the
@@ -60,7 +73,7 @@ BaselineMap arap_baseline(const Surface& source, const BoundaryCondition& bounda
 /// (|∂f|²+|∂̄f|²)/(|∂f|²−|∂̄f|²) by Newton's method (fold_free.h), without folds. Any number of pins. It starts from the
 /// first map without folds among: the harmonic map where the whole boundary is prescribed, else the least-squares
 /// conformal one; Tutte's (1963) where the boundary is sent to a convex polygon or nothing is prescribed, onto a circle
-/// then; the first of these untangled.
+/// then; the first of these untangled. With less than two pins the areas of the image add up to that of the source.
 /// @throw Error bad_mesh, bad_boundary, not_solved, cancelled, bad_option
 BaselineMap mips_baseline(const Surface& source, const BoundaryCondition& boundary,
                           const BaselineOptions& options = {});

@@ -6,6 +6,7 @@
 #include <beltrami/operators/distortion.h>
 #include <beltrami/plane/polygon.h>
 #include <beltrami/solve/beltrami_solver.h>
+#include <beltrami/unfold/convex_combination_map.h>
 
 namespace beltrami {
 
@@ -58,6 +59,20 @@ Eigen::VectorXcd linear_map(const Surface& source, const BoundaryCondition& boun
     return map.array() + shift;
 }
 
+void give_true_size(const Surface& source, const BoundaryCondition& boundary, Eigen::VectorXcd& map) {
+    if (boundary.vertices.size() > 1 || !boundary.lines.empty()) return;
+    double area = 0, image = 0;
+    for (int s = 0; s < source.operators.sample_count(); ++s) {
+        const auto [d_z, d_zbar] = source.operators.derivatives(s, map);
+        area += source.operators.weights[s];
+        image += source.operators.weights[s] * (std::norm(d_z) - std::norm(d_zbar));
+    }
+    if (!(image > 0)) return;
+    const Complex centre = boundary.vertices.empty() ? Complex(0) : map[boundary.vertices[0]];
+    const double scale = std::sqrt(area / image);
+    map = (centre + scale * (map.array() - centre)).matrix().eval();
+}
+
 bool has_no_folds(const Surface& source, const Eigen::VectorXcd& map) {
     for (int s = 0; s < source.operators.sample_count(); ++s) {
         const auto [d_z, d_zbar] = source.operators.derivatives(s, map);
@@ -86,10 +101,39 @@ BaselineMap harmonic_baseline(const Surface& source, const BoundaryCondition& bo
     return result;
 }
 
+namespace {
+
+BaselineMap convex_combination_baseline(const Surface& source, const BoundaryCondition& boundary,
+                                        const BaselineOptions& options, ConvexWeights weights) {
+    detail::check_baseline(source, boundary, options);
+    require_whole_boundary(boundary, source);
+    BaselineMap result;
+    result.map = convex_combination_map(source, boundary, weights);
+    result.factorizations = 1;
+    result.converged = true;
+    if (!detail::must_fold(source, boundary, result) && !has_convex_target(source, boundary))
+        result.warnings.push_back(
+            "the target is not a convex polygon with nothing else prescribed, so that folds are not excluded");
+    detail::warn_of_flips(source, result);
+    return result;
+}
+
+}  // namespace
+
+BaselineMap tutte_baseline(const Surface& source, const BoundaryCondition& boundary, const BaselineOptions& options) {
+    return convex_combination_baseline(source, boundary, options, ConvexWeights::uniform);
+}
+
+BaselineMap mean_value_baseline(const Surface& source, const BoundaryCondition& boundary,
+                                const BaselineOptions& options) {
+    return convex_combination_baseline(source, boundary, options, ConvexWeights::mean_value);
+}
+
 BaselineMap lscm_baseline(const Surface& source, const BoundaryCondition& boundary, const BaselineOptions& options) {
     detail::check_baseline(source, boundary, options);
     BaselineMap result;
     result.map = least_squares_conformal_map(source, boundary);
+    detail::give_true_size(source, boundary, result.map);
     result.factorizations = 1;
     result.converged = true;
     detail::must_fold(source, boundary, result);

@@ -19,6 +19,10 @@ bool must_fold(const Surface& source, const BoundaryCondition& boundary, Baselin
 /// single pin.
 Eigen::VectorXcd linear_map(const Surface& source, const BoundaryCondition& boundary, int& factorizations);
 
+/// Scales a map, about the pin if there is one, so that the areas of the image add up to that of the source; only where
+/// the boundary condition leaves its size open.
+void give_true_size(const Surface& source, const BoundaryCondition& boundary, Eigen::VectorXcd& map);
+
 /// True if no sample is folded or flat.
 bool has_no_folds(const Surface& source, const Eigen::VectorXcd& map);
 

@@ -31,6 +31,7 @@ class Examination {
     Examination(const Surface& source, const BoundaryCondition& boundary, int outer)
         : source_(source),
           outer_(outer),
+          lines_(boundary.lines),
           image_(prescribed_values(boundary, source)),
           prescribed_(source.mesh.vertex_count(), 0),
           whole_(source.topology.boundary_loops.size(), 1),
@@ -42,6 +43,7 @@ class Examination {
         nothing_meets();
         orientations();
         places();
+        lines();
         faces();
     }
 
@@ -211,6 +213,26 @@ class Examination {
         }
     }
 
+    /// A line meets the inside of a simple polygon exactly where corners lie on both its sides, and just within its
+    /// first crossing it is outside every hole.
+    void lines() const {
+        if (whole_.empty() || !whole_[outer_]) return;
+        for (const BoundaryCondition::Line& line : lines_) {
+            double left = 0, right = 0, reach = 0;
+            for (const int v : loops()[outer_]) {
+                const Complex to = std::conj(line.direction) * (image_[v] - line.point);
+                left = std::max(left, to.imag());
+                right = std::max(right, -to.imag());
+                reach = std::max(reach, std::abs(to));
+            }
+            if (left > kOnSegment * reach && right > kOnSegment * reach) continue;
+            throw Error(Cause::bad_boundary,
+                        "the line on which vertex " + name(line.vertex) + " is to lie misses the image of " +
+                            of_loop(outer_) + ", the outer one",
+                        "give a line that crosses it", {line.vertex});
+        }
+    }
+
     void faces() const {
         const FaceList& faces = source_.mesh.faces;
         for (int f = 0; f < faces.size(); ++f) {
@@ -235,6 +257,7 @@ class Examination {
 
     const Surface& source_;
     int outer_;
+    const std::vector<BoundaryCondition::Line>& lines_;
     Eigen::VectorXcd image_;
     std::vector<char> prescribed_, whole_;
     std::vector<Piece> pieces_;

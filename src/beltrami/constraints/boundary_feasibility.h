@@ -17,6 +17,7 @@ namespace beltrami {
 ///   every other one, both run through with the faces on the left;
 /// - images outside the outer loop's image, or inside another loop's image;
 /// - interior pins on the image of a boundary edge;
+/// - lines of vertices that pass by the image of the outer loop, where that is wholly prescribed;
 /// - a face without interior edges, all prescribed, whose image folds (every other face with all its vertices
 /// prescribed
 ///   gets a free vertex by split_prescribed, so it is no obstruction).

@@ -1,11 +1,13 @@
 #include <beltrami/io/mesh_builder.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include <fmt/format.h>
 
 #include <beltrami/io/text_scanner.h>
+#include <beltrami/meshing/polygon_split.h>
 
 namespace beltrami {
 
@@ -43,10 +45,44 @@ void MeshBuilder::add_face(std::span<const int> vertices, std::span<const int> t
     }
 }
 
-void MeshBuilder::keep_out(std::size_t corners, const std::string& place) {
-    if (++kept_out_ > most_named) return;
+void MeshBuilder::note_large(std::size_t corners, const std::string& place) {
+    if (++large_ > most_named) return;
     warnings_.push_back(
-        fmt::format("{}: a face with {} corners was kept out, only triangles and quads are used", place, corners));
+        fmt::format("{}: a face with {} corners was cut into {} triangles", place, corners, corners - 2));
+}
+
+void MeshBuilder::split_large_faces(Mesh& mesh) {
+    FaceList faces;
+    std::vector<int> texture, parents;
+    const auto corners = mesh.texture ? &mesh.texture->corners : nullptr;
+    for (int f = 0; f < mesh.face_count(); ++f) {
+        const auto face = mesh.faces[f];
+        const int first = mesh.faces.first_corner(f), degree = mesh.faces.degree(f);
+        const auto add = [&](std::span<const int> chosen) {
+            std::vector<int> vertices;
+            for (const int c : chosen) {
+                vertices.push_back(face[c]);
+                if (corners) texture.push_back((*corners)[first + c]);
+            }
+            check_room(faces.vertices().size() + vertices.size(), "face corners");
+            faces.add(vertices);
+            parents.push_back(f);
+        };
+        if (degree <= 4) {
+            static constexpr std::array<int, 4> all{0, 1, 2, 3};
+            add(std::span<const int>(all).first(degree));
+            continue;
+        }
+        Positions polygon(degree, dimension_);
+        for (int c = 0; c < degree; ++c) polygon.row(c) = mesh.positions.row(face[c]);
+        for (const auto& triangle : split_polygon(polygon)) add(triangle);
+    }
+    mesh.faces = std::move(faces);
+    if (mesh.texture) mesh.texture->corners = std::move(texture);
+    if (attributes_.face_columns.empty() && attributes_.face_states.empty()) return;
+    std::vector<std::vector<int>> same(static_cast<std::size_t>(mesh.vertex_count()));
+    for (int v = 0; v < mesh.vertex_count(); ++v) same[v] = {v};
+    attributes_ = carried(attributes_, same, parents);
 }
 
 LoadedMesh MeshBuilder::finish() {
@@ -59,13 +95,18 @@ LoadedMesh MeshBuilder::finish() {
         result.mesh.texture = TextureCoordinates{rows_of(texture_points_, 2), std::move(texture_corners_)};
     }
     result.mesh.faces = std::move(faces_);
-    if (!face_mu_.empty())
+    if (large_ > 0) split_large_faces(result.mesh);
+    result.attributes = std::move(attributes_);
+    if (!face_mu_.empty() && large_ == 0) {
         result.face_mu =
             Eigen::Map<const Eigen::VectorXcd>(face_mu_.data(), static_cast<Eigen::Index>(face_mu_.size()));
+    } else if (!face_mu_.empty()) {
+        warnings_.push_back(name_ + ": the coefficients of the faces go, as those of faces that are cut mean nothing");
+    }
     result.warnings = std::move(warnings_);
-    if (kept_out_ > most_named) {
-        result.warnings.push_back(
-            fmt::format("{}: {} further faces with more than 4 corners were kept out", name_, kept_out_ - most_named));
+    if (large_ > most_named) {
+        result.warnings.push_back(fmt::format("{}: {} further faces with more than 4 corners were cut into triangles",
+                                              name_, large_ - most_named));
     }
     return result;
 }

@@ -27,22 +27,22 @@ class MeshBuilder {
     void add_texture_point(double u, double v);
     /// The coefficient of the next face to be added. If one face has one, all must.
     void add_face_mu(Complex mu) { face_mu_.push_back(mu); }
-    /// Adds a triangle or a quad.
-    /// @param vertices indices of its corners, 3 or 4
+    /// Adds a face; one with more than four corners is triangulated by finish(), in its place.
+    /// @param vertices indices of its corners, 3 at least
     /// @param texture  as many indices of texture points, -1 for none; or nothing at all
     void add_face(std::span<const int> vertices, std::span<const int> texture = {});
-    /// As add_face(), but a larger face is kept out and remembered for a warning.
+    /// As add_face(), and a face with more than four corners is remembered for a warning.
     /// @param source the text or binary source, asked with here() for the face's place in the file
     template <class Source>
-    void add_or_keep_out(std::span<const int> vertices, std::span<const int> texture, const Source& source) {
-        if (vertices.size() > 4) {
-            keep_out(vertices.size(), kept_out_ < most_named ? source.here() : std::string());
-        } else {
-            add_face(vertices, texture);
-        }
+    void add_face(std::span<const int> vertices, std::span<const int> texture, const Source& source) {
+        if (vertices.size() > 4) note_large(vertices.size(), large_ < most_named ? source.here() : std::string());
+        add_face(vertices, texture);
     }
+    std::size_t face_count() const { return static_cast<std::size_t>(faces_.size()); }
     /// Gives each vertex its texture point of the same index.
     void use_texture_per_vertex() { texture_per_vertex_ = true; }
+    /// What else the file says; rows of vertices and faces as they were added.
+    FileAttributes& attributes() { return attributes_; }
 
     /// The mesh; the builder is empty afterwards. @throw Error unreadable if there is no vertex
     LoadedMesh finish();
@@ -50,7 +50,8 @@ class MeshBuilder {
   private:
     static constexpr std::int64_t most_named = 10;  ///< large faces named one by one before they are only counted
 
-    void keep_out(std::size_t corners, const std::string& place);
+    void note_large(std::size_t corners, const std::string& place);
+    void split_large_faces(Mesh& mesh);
     void check_room(std::size_t count, const char* things) const;
 
     std::string name_;
@@ -62,7 +63,8 @@ class MeshBuilder {
     std::vector<Complex> face_mu_;
     bool texture_used_ = false;
     bool texture_per_vertex_ = false;
-    std::int64_t kept_out_ = 0;
+    std::int64_t large_ = 0;
+    FileAttributes attributes_;
     std::vector<std::string> warnings_;
 };
 

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include <beltrami/io/file_attributes.h>
 #include <beltrami/mesh/mesh.h>
 
 namespace beltrami {
@@ -13,6 +14,7 @@ namespace beltrami {
 /// A mesh as its file has it, and what the file held that the mesh does not.
 struct LoadedMesh {
     Mesh mesh;
+    FileAttributes attributes = {};                ///< what else the file says of vertices and faces
     std::optional<Eigen::VectorXcd> face_mu = {};  ///< #F from a PLY's face properties mu_re and mu_im
     std::vector<std::string> warnings;             ///< sentences without a final full stop; empty if all was taken
 };
@@ -20,10 +22,10 @@ struct LoadedMesh {
 /// Reads a mesh in the format its extension names: .obj, .ply, .off or .stl, in either case.
 ///
 /// Vertices, faces (triangles and quads) and texture coordinates come in the order of the file. A face with more than
-/// four corners is kept out, with a warning that names its line (or byte). Normals, colours, groups, materials and
-/// unknown properties are ignored. Numbers are read the same way in every locale; "nan" and "inf" are taken as they
-/// stand, for diagnose() to report. A false count never makes a reader take more memory than a small multiple of the
-/// file's size.
+/// four corners is cut into triangles (polygon_split.h), with a warning that names its line (or byte). Groups,
+/// materials and vertex colours of OBJ and further properties of PLY are attributes; normals of OBJ and colours of OFF
+/// are ignored. Numbers are read the same way in every locale; "nan" and "inf" are taken as they stand, for diagnose()
+/// to report. A false count never makes a reader take more memory than a small multiple of the file's size.
 ///
 /// @throw Error unreadable if the extension is unknown, the file cannot be read, is malformed or truncated, holds no
 ///        vertex, or a face has fewer than three corners or names a vertex that is not there.
@@ -35,14 +37,17 @@ LoadedMesh read_mesh(const std::filesystem::path& path);
 LoadedMesh read_obj(std::string_view bytes, const std::string& name);
 
 /// Reads a PLY held in memory: ascii or binary of either byte order. Without a property z the positions are #V×2.
-/// The vertex properties (s, t), (u, v) or (texture_u, texture_v) become texture coordinates, one point a vertex;
-/// of the face properties mu_re and mu_im are kept.
+/// The vertex properties (s, t), (u, v) or (texture_u, texture_v) become texture coordinates, one point a vertex; or
+/// the face lists texcoord do (two numbers per corner, corners of one vertex with equal numbers share a point). The
+/// face properties mu_re and mu_im become coefficients, unless faces have to be cut. All other properties are
+/// attributes, as are comments; other elements are passed over.
 /// @param name what errors and warnings call the file
 /// @throw Error unreadable
 LoadedMesh read_ply(std::string_view bytes, const std::string& name);
 
-/// Reads a text OFF held in memory, also with colours, normals and texture coordinates (COFF, NOFF, STOFF …); of these
-/// only texture coordinates, the last two numbers of a vertex line, are kept.
+/// Reads a text OFF held in memory, lines or a mere stream of numbers, also with colours, normals and texture
+/// coordinates (COFF, NOFF, STOFF …); of these only texture coordinates, the last two numbers of a vertex line, are
+/// kept.
 /// @param name what errors and warnings call the file
 /// @throw Error unreadable
 LoadedMesh read_off(std::string_view bytes, const std::string& name);

@@ -1,5 +1,6 @@
 #include <array>
 #include <limits>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -25,13 +26,19 @@ class ObjParser {
                 read_texture_point();
             } else if (keyword == "f") {
                 read_face();
+            } else if (keyword == "usemtl" || keyword == "g" || keyword == "o" || keyword == "s") {
+                state_[std::string(keyword)] = rest_of_line();
+                state_index_ = -1;
+            } else if (keyword == "mtllib") {
+                builder_.attributes().header.push_back("mtllib " + rest_of_line());
             } else if (!is_letter(keyword.front())) {
-                // Statements without use here (vn, g, usemtl, curv …) all are words; anything else is no OBJ.
+                // Statements without use here (vn, l, curv …) all are words; anything else is no OBJ.
                 scanner_.fail(fmt::format("{} is not a statement of an OBJ file", in_quotes(keyword)));
             }
         }
         check_forward(forward_vertices_, builder_.vertex_count(), "vertex");
         check_forward(forward_points_, builder_.texture_point_count(), "texture point");
+        keep_colours();
         return builder_.finish();
     }
 
@@ -48,6 +55,56 @@ class ObjParser {
         std::array<double, 3> point;
         for (double& coordinate : point) coordinate = scanner_.number("a coordinate");
         builder_.add_vertex(point);
+        read_colour();
+    }
+
+    /// Three numbers behind the coordinates are a colour; one is a weight of rational curves, four are that and a
+    /// colour.
+    void read_colour() {
+        std::array<double, 4> further;
+        std::size_t count = 0;
+        while (count < further.size() && !scanner_.at_line_end()) {
+            const auto value = spelled_number<double>(scanner_.word());
+            if (!value) return;
+            further[count++] = *value;
+        }
+        if (count < 3) return;
+        colours_.resize(builder_.vertex_count() - 1, {1, 1, 1});  // white where none is given
+        colours_.push_back({further[count - 3], further[count - 2], further[count - 1]});
+    }
+
+    void keep_colours() {
+        if (colours_.empty()) return;
+        colours_.resize(builder_.vertex_count(), {1, 1, 1});
+        FileAttributes& attributes = builder_.attributes();
+        attributes.unit_colours = true;
+        constexpr std::array<const char*, 3> names{"red", "green", "blue"};
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            FileColumn column{names[channel], NumberType::float64, {}, {}, {}};
+            for (const auto& colour : colours_) column.values.push_back(colour[channel]);
+            attributes.vertex_columns.push_back(std::move(column));
+        }
+    }
+
+    std::string rest_of_line() {
+        std::string rest;
+        while (!scanner_.at_line_end()) rest += (rest.empty() ? "" : " ") + std::string(scanner_.word());
+        return rest;
+    }
+
+    /// Notes what is in force at the face that is added next.
+    void note_state() {
+        if (state_.empty()) return;
+        FileAttributes& attributes = builder_.attributes();
+        if (state_index_ < 0) {
+            const auto [known, is_new] =
+                state_indices_.try_emplace(state_, static_cast<int>(state_indices_.size()) + 1);
+            state_index_ = known->second;
+            if (attributes.states.empty()) attributes.states.emplace_back();  // 0: nothing said yet
+            if (is_new) attributes.states.push_back(state_);
+        }
+        attributes.face_states.resize(builder_.face_count(), 0);
+        attributes.face_states.push_back(state_index_);
     }
 
     void read_texture_point() {
@@ -62,7 +119,8 @@ class ObjParser {
         if (vertices_.size() < 3) {
             scanner_.fail(fmt::format("a face names {} corners, it needs at least 3", vertices_.size()));
         }
-        builder_.add_or_keep_out(vertices_, points_, scanner_);
+        note_state();
+        builder_.add_face(vertices_, points_, scanner_);
     }
 
     /// v, v/vt, v//vn or v/vt/vn; a slash with nothing after it is let pass.
@@ -115,6 +173,10 @@ class ObjParser {
     std::vector<int> points_;
     std::vector<ForwardReference> forward_vertices_;
     std::vector<ForwardReference> forward_points_;
+    std::vector<std::array<double, 3>> colours_;
+    std::map<std::string, std::string> state_;  // statements in force, by keyword
+    int state_index_ = -1;                      // of state_ among the attributes' states; -1: not looked up yet
+    std::map<std::map<std::string, std::string>, int> state_indices_;
 };
 
 }  // namespace

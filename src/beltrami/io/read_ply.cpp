@@ -4,8 +4,11 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
+#include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -18,7 +21,7 @@ namespace beltrami {
 
 namespace {
 
-enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+using Type = NumberType;
 
 struct Property {
     std::string name;
@@ -46,6 +49,7 @@ enum class Encoding { ascii, little_endian, big_endian };
 struct Header {
     Encoding encoding = Encoding::ascii;
     std::vector<Element> elements;
+    std::vector<std::string> comments;
 
     const Element* find(std::string_view name) const {
         const auto found = std::ranges::find(elements, name, &Element::name);
@@ -126,7 +130,11 @@ Header read_header(TextScanner& scanner) {
         } else if (keyword == "property") {
             if (header.elements.empty()) scanner.fail("a property comes before the first element");
             header.elements.back().properties.push_back(read_property(scanner));
-        } else if (keyword != "comment" && keyword != "obj_info") {
+        } else if (keyword == "comment" || keyword == "obj_info") {
+            std::string line(keyword);
+            while (!scanner.at_line_end()) line += fmt::format(" {}", scanner.word());
+            header.comments.push_back(std::move(line));
+        } else {
             scanner.fail(fmt::format("{} is not a statement of a PLY header", in_quotes(keyword)));
         }
     }
@@ -190,28 +198,63 @@ class BinaryBody {
     BinarySource source_;
 };
 
-/// Reads one element: scalars[i] becomes the value of property i, list the entries of the list property `wanted`.
+/// One row of an element, by property.
+struct Row {
+    explicit Row(const Element& element) : scalars(element.properties.size()), lists(element.properties.size()) {}
+    std::vector<double> scalars;
+    std::vector<std::vector<double>> lists;
+};
+
 template <class Body>
-void read_row(Body& body, const Element& element, std::optional<std::size_t> wanted, std::vector<double>& scalars,
-              std::vector<double>& list) {
+void read_row(Body& body, const Element& element, Row& row) {
     body.begin_row();
     for (std::size_t i = 0; i < element.properties.size(); ++i) {
         const Property& property = element.properties[i];
         if (!property.length_type) {
-            scalars[i] = body.value(property.type);
+            row.scalars[i] = body.value(property.type);
             continue;
         }
         const double length = body.value(*property.length_type);
         if (!(length >= 0) || length != std::floor(length)) body.fail(fmt::format("a list has {} entries", length));
-        if (wanted == i) list.clear();
+        row.lists[i].clear();
         const auto count = static_cast<std::uint64_t>(std::min(length, 1e18));
-        for (std::uint64_t entry = 0; entry < count; ++entry) {  // a false length ends with the data
-            const double value = body.value(property.type);
-            if (wanted == i) list.push_back(value);
-        }
+        for (std::uint64_t entry = 0; entry < count; ++entry)  // a false length ends with the data
+            row.lists[i].push_back(body.value(property.type));
     }
     body.end_row();
 }
+
+/// The properties of an element that are kept as they are, each with its column.
+class KeptColumns {
+  public:
+    /// @param used properties that the mesh is made of
+    KeptColumns(const Element& element, const std::set<std::size_t>& used, std::vector<FileColumn>& columns)
+        : columns_(columns) {
+        for (std::size_t i = 0; i < element.properties.size(); ++i) {
+            const Property& property = element.properties[i];
+            if (used.contains(i) || property.name.empty()) continue;
+            properties_.push_back(i);
+            columns_.push_back({property.name, property.type, property.length_type, {}, {}});
+            if (property.length_type) columns_.back().offsets.push_back(0);
+        }
+    }
+    void add(const Row& row) {
+        for (std::size_t c = 0; c < properties_.size(); ++c) {
+            FileColumn& column = columns_[c];
+            if (column.length_type) {
+                const std::vector<double>& list = row.lists[properties_[c]];
+                column.values.insert(column.values.end(), list.begin(), list.end());
+                column.offsets.push_back(static_cast<int>(column.values.size()));
+            } else {
+                column.values.push_back(row.scalars[properties_[c]]);
+            }
+        }
+    }
+
+  private:
+    std::vector<std::size_t> properties_;
+    std::vector<FileColumn>& columns_;
+};
 
 template <class Body>
 void check_count(const Body& body, const Element& element) {
@@ -225,42 +268,83 @@ void check_count(const Body& body, const Element& element) {
     }
 }
 
+/// The names of the texture coordinates of the vertices, if they have some.
+std::optional<std::array<std::string_view, 2>> texture_names(const Element& vertices) {
+    constexpr std::array<std::array<std::string_view, 2>, 3> known{
+        {{"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}}};
+    const auto named = std::ranges::find_if(
+        known, [&](const auto& names) { return vertices.find(names[0]) && vertices.find(names[1]); });
+    if (named == known.end()) return std::nullopt;
+    return *named;
+}
+
 template <class Body>
 void read_vertices(Body& body, const Element& element, MeshBuilder& builder, int dimension) {
     std::vector<std::size_t> columns{*element.find("x"), *element.find("y")};
     if (dimension == 3) columns.push_back(*element.find("z"));
-    constexpr std::array<std::array<std::string_view, 2>, 3> texture_names{
-        {{"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}}};
-    const auto named = std::ranges::find_if(
-        texture_names, [&](const auto& names) { return element.find(names[0]) && element.find(names[1]); });
-    const bool has_texture = named != texture_names.end();
+    const auto named = texture_names(element);
+    const bool has_texture = named.has_value();
     if (has_texture) builder.use_texture_per_vertex();
     const std::size_t u = has_texture ? *element.find((*named)[0]) : 0;
     const std::size_t v = has_texture ? *element.find((*named)[1]) : 0;
 
     builder.reserve_vertices(static_cast<std::size_t>(element.count));
-    std::vector<double> values(element.properties.size());
+    std::set<std::size_t> used(columns.begin(), columns.end());
+    if (has_texture) used.insert({u, v});
+    KeptColumns kept(element, used, builder.attributes().vertex_columns);
+    Row values(element);
     std::vector<double> point(columns.size());
-    std::vector<double> unused;
     for (std::int64_t row = 0; row < element.count; ++row) {
-        read_row(body, element, std::nullopt, values, unused);
-        std::ranges::transform(columns, point.begin(), [&](std::size_t column) { return values[column]; });
+        read_row(body, element, values);
+        std::ranges::transform(columns, point.begin(), [&](std::size_t column) { return values.scalars[column]; });
         builder.add_vertex(point);
-        if (has_texture) builder.add_texture_point(values[u], values[v]);
+        if (has_texture) builder.add_texture_point(values.scalars[u], values.scalars[v]);
+        kept.add(values);
     }
 }
 
+/// Texture points of face corners: those of one vertex with equal numbers are one point.
+class CornerPoints {
+  public:
+    explicit CornerPoints(MeshBuilder& builder) : builder_(builder) {}
+
+    /// @param numbers u and v of every corner
+    void of_face(const std::vector<int>& vertices, const std::vector<double>& numbers, std::vector<int>& points) {
+        points.clear();
+        for (std::size_t c = 0; c < vertices.size(); ++c) {
+            const auto [u, v] = std::pair(numbers[2 * c], numbers[2 * c + 1]);
+            // NaN is not equal to itself and would break the order of keys.
+            const auto key =
+                std::tuple(vertices[c], std::bit_cast<std::uint64_t>(u + 0.0), std::bit_cast<std::uint64_t>(v + 0.0));
+            const auto [at, is_new] = index_.try_emplace(key, static_cast<int>(builder_.texture_point_count()));
+            if (is_new) builder_.add_texture_point(u, v);
+            points.push_back(at->second);
+        }
+    }
+
+  private:
+    MeshBuilder& builder_;
+    std::map<std::tuple<int, std::uint64_t, std::uint64_t>, int> index_;
+};
+
 template <class Body>
-void read_faces(Body& body, const Element& element, std::int64_t vertex_count, MeshBuilder& builder) {
+void read_faces(Body& body, const Element& element, std::int64_t vertex_count, bool texture_per_vertex,
+                MeshBuilder& builder) {
     std::optional<std::size_t> corners = element.find("vertex_indices", true);
     if (!corners) corners = element.find("vertex_index", true);
     if (!corners) body.fail("the faces have no list vertex_indices");
     const std::optional<std::size_t> re = element.find("mu_re"), im = element.find("mu_im");
-    std::vector<double> values(element.properties.size());
-    std::vector<double> list;
-    std::vector<int> vertices;
+    std::optional<std::size_t> texture;
+    if (!texture_per_vertex) texture = element.find("texcoord", true);
+    std::set<std::size_t> used{*corners};
+    if (texture) used.insert(*texture);
+    KeptColumns kept(element, used, builder.attributes().face_columns);
+    CornerPoints corner_points(builder);
+    Row values(element);
+    std::vector<int> vertices, points;
     for (std::int64_t row = 0; row < element.count; ++row) {
-        read_row(body, element, corners, values, list);
+        read_row(body, element, values);
+        const std::vector<double>& list = values.lists[*corners];
         if (list.size() < 3) body.fail(fmt::format("a face names {} corners, it needs at least 3", list.size()));
         vertices.clear();
         for (const double index : list) {
@@ -270,8 +354,17 @@ void read_faces(Body& body, const Element& element, std::int64_t vertex_count, M
             }
             vertices.push_back(static_cast<int>(index));
         }
-        if (re && im && vertices.size() <= 4) builder.add_face_mu({values[*re], values[*im]});
-        builder.add_or_keep_out(vertices, {}, body);
+        if (re && im) builder.add_face_mu({values.scalars[*re], values.scalars[*im]});
+        points.clear();
+        if (texture && !values.lists[*texture].empty()) {
+            const std::size_t numbers = values.lists[*texture].size();
+            if (numbers != 2 * vertices.size())
+                body.fail(fmt::format("a face with {} corners has {} numbers in its list texcoord instead of {}",
+                                      vertices.size(), numbers, 2 * vertices.size()));
+            corner_points.of_face(vertices, values.lists[*texture], points);
+        }
+        kept.add(values);
+        builder.add_face(vertices, points, body);
     }
 }
 
@@ -282,19 +375,17 @@ LoadedMesh read_body(Body body, const Header& header, const std::string& name) {
     check_count(body, *vertices);
     const int dimension = vertices->find("z") ? 3 : 2;
     MeshBuilder builder(name, dimension);
+    builder.attributes().header = header.comments;
     for (const Element& element : header.elements) {
         if (element.properties.empty()) continue;  // takes no bytes, whatever its count
         check_count(body, element);
         if (element.name == "vertex") {
             read_vertices(body, element, builder, dimension);
         } else if (element.name == "face") {
-            read_faces(body, element, vertices->count, builder);
+            read_faces(body, element, vertices->count, texture_names(*vertices).has_value(), builder);
         } else {
-            std::vector<double> values(element.properties.size());
-            std::vector<double> unused;
-            for (std::int64_t row = 0; row < element.count; ++row) {
-                read_row(body, element, std::nullopt, values, unused);
-            }
+            Row values(element);
+            for (std::int64_t row = 0; row < element.count; ++row) read_row(body, element, values);
         }
     }
     return builder.finish();
@@ -307,11 +398,13 @@ LoadedMesh read_ply(std::string_view bytes, const std::string& name) {
     const Header header = read_header(scanner);
     if (header.encoding == Encoding::ascii) return read_body(TextBody(scanner), header, name);
 
-    // Behind "end_header" the first newline belongs to the header. CR LF is one only if the first line ends so too:
-    // otherwise the LF may be the first byte of the data.
-    std::size_t offset = bytes.size() - scanner.rest().size();
-    const bool crlf = bytes.substr(bytes.find_first_of("\r\n")).starts_with("\r\n");
-    offset += std::min<std::size_t>(crlf ? 2 : 1, scanner.rest().size());
+    // Behind "end_header" the first newline belongs to the header. CR LF is one unless the first line ends with CR
+    // alone: then the LF may be the first byte of the data. (Some writers end this one line so and all others with LF.)
+    std::string_view rest = scanner.rest();
+    rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
+    const std::string_view first_end = bytes.substr(bytes.find_first_of("\r\n"));
+    const bool crlf = rest.starts_with("\r\n") && (first_end.starts_with("\r\n") || first_end.starts_with('\n'));
+    const std::size_t offset = bytes.size() - rest.size() + std::min<std::size_t>(crlf ? 2 : 1, rest.size());
     const std::endian order = header.encoding == Encoding::big_endian ? std::endian::big : std::endian::little;
     return read_body(BinaryBody(BinarySource(bytes, offset, order, name)), header, name);
 }

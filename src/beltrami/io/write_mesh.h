@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <beltrami/io/file_attributes.h>
 #include <beltrami/mesh/mesh.h>
 
 namespace beltrami {
@@ -31,10 +32,13 @@ enum class PlyEncoding { ascii, binary_little_endian };
 TextureCoordinates texture_of_map(const Mesh& mesh, const Positions& map);
 
 /// Writes a Wavefront OBJ.
-/// @param texture written as vt; pass mesh.texture to keep the mesh's own, or texture_of_map()
-/// @throw Error unwritable; bad_option if the texture or the shades do not fit the mesh
+/// @param texture    written as vt; pass mesh.texture to keep the mesh's own, or texture_of_map()
+/// @param attributes vertex columns red, green, blue become colours of the vertices; files of materials and statements
+///                   at the faces are written again
+/// @throw Error unwritable; bad_option if the texture, the shades or the attributes do not fit the mesh
 void write_obj(const std::filesystem::path& path, const Mesh& mesh,
-               const std::optional<TextureCoordinates>& texture = std::nullopt, const std::vector<Shade>& shades = {});
+               const std::optional<TextureCoordinates>& texture = std::nullopt, const std::vector<Shade>& shades = {},
+               const FileAttributes& attributes = {});
 
 /// Writes a text OFF, or a STOFF if there is a map. The mesh's own texture is not written.
 /// @param map #V×2, texture coordinates of the vertices
@@ -45,10 +49,13 @@ void write_off(const std::filesystem::path& path, const Mesh& mesh, const std::o
 /// Writes a PLY with all numbers as double, without z if the mesh has none. The mesh's own texture is not written.
 /// @param face_columns   further properties of the faces, for instance mu_re, mu_im, abs_mu, K
 /// @param vertex_columns further properties of the vertices; u and v are read back as texture coordinates
-/// @throw Error unwritable; bad_option if shades or a column do not fit the mesh or its name is not a word of its own
+/// @param attributes     their columns and comments are written again, but for columns whose names are taken, and for
+///                       texture coordinates where u and v are written; colours of OBJ become bytes
+/// @throw Error unwritable; bad_option if shades, a column or the attributes do not fit the mesh or a column's name is
+///        not a word of its own
 void write_ply(const std::filesystem::path& path, const Mesh& mesh, const std::vector<Column>& face_columns = {},
                const std::vector<Column>& vertex_columns = {}, PlyEncoding encoding = PlyEncoding::binary_little_endian,
-               const std::vector<Shade>& shades = {});
+               const std::vector<Shade>& shades = {}, const FileAttributes& attributes = {});
 
 /// What write_mesh() writes.
 struct MeshOutput {
@@ -56,13 +63,17 @@ struct MeshOutput {
     std::optional<Positions> map = std::nullopt;  ///< #V×2: where the vertices go
     std::vector<Column> face_columns = {};
     std::vector<Shade> shades = {};
+    FileAttributes attributes = {};  ///< of the mesh's file
+    /// A map with seams, one point per face corner, in place of one per vertex: of a closed surface cut open.
+    std::optional<TextureCoordinates> corner_map = std::nullopt;
 };
 
 /// Writes in the format the extension names, in either case: .obj (the map as vt, or else the mesh's own texture),
 /// .ply (binary; the map as vertex properties u and v, the face columns) or .off (the map as STOFF). Only .ply can hold
-/// face columns, the other formats go without.
+/// face columns, the other formats go without; attributes as write_obj() and write_ply() take them. A map with seams
+/// becomes vt of OBJ and lists texcoord of the faces of PLY.
 /// @throw Error unwritable, also if the extension is unknown; bad_option if the map, a column or the shades do not fit
-///        the mesh
+///        the mesh, for two maps, and for one with seams in .off
 void write_mesh(const std::filesystem::path& path, const MeshOutput& output);
 
 }  // namespace beltrami

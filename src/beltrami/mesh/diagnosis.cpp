@@ -248,7 +248,7 @@ class Examination {
 
     /// @pre finite positions
     void check_shapes() {
-        std::vector<int> zero, slivers, up, down;
+        std::vector<int> zero, slivers, reflex, up, down;
         const bool planar = is_planar(mesh_);
         for (int face = 0; face < mesh_.face_count(); ++face) {
             if (degenerate_[face]) continue;
@@ -258,6 +258,7 @@ class Examination {
                 continue;
             }
             if (faces_.degree(face) == 3 && shape.smallest_angle < sliver_angle) slivers.push_back(face);
+            if (shape.reflex) reflex.push_back(face);
             if (planar) (shape.upward ? up : down).push_back(face);
         }
         if (!zero.empty()) {
@@ -272,6 +273,10 @@ class Examination {
                    subject("face", "faces", fewer, "is", "are") + " turned over in the plane, against the other faces",
                    "untangle the planar mesh, or give it the third coordinate it was projected from", fewer);
         }
+        if (!reflex.empty()) {
+            report(Defect::reflex_quad, false, subject("quad", "quads", reflex, "is", "are") + " not convex",
+                   "split these quads into triangles before they are mapped", reflex);
+        }
         if (!slivers.empty()) {
             report(
                 Defect::sliver_face, false,
@@ -284,6 +289,7 @@ class Examination {
         double area_ratio;  ///< area / longest edge²
         double smallest_angle;
         bool upward;  ///< normal has positive z
+        bool reflex;  ///< a corner of the quad is straight or turns against the others
     };
 
     /// Measures a face after scaling its longest edge to 1, so that neither huge nor tiny meshes over- or underflow.
@@ -292,7 +298,7 @@ class Examination {
         const int degree = static_cast<int>(corners.size());
         double scale = 0.0;
         for (const int vertex : corners) scale = std::max(scale, mesh_.point(vertex).cwiseAbs().maxCoeff());
-        if (scale == 0.0) return {0.0, 0.0, true};
+        if (scale == 0.0) return {0.0, 0.0, true, false};
         std::array<Eigen::Vector3d, 4> p;
         for (int i = 0; i < degree; ++i) p[i] = mesh_.point(corners[i]) / scale;
         std::array<Eigen::Vector3d, 4> sides;
@@ -301,7 +307,7 @@ class Examination {
             sides[i] = p[(i + 1) % degree] - p[i];
             longest = std::max(longest, sides[i].cwiseAbs().maxCoeff());
         }
-        if (longest == 0.0) return {0.0, 0.0, true};
+        if (longest == 0.0) return {0.0, 0.0, true, false};
         double longest_square = 0.0;
         for (int i = 0; i < degree; ++i) {
             sides[i] /= longest;
@@ -310,11 +316,13 @@ class Examination {
         Eigen::Vector3d area = 0.5 * sides[0].cross(sides[1]);
         if (degree == 4) area += 0.5 * sides[2].cross(sides[3]);
         double angle = std::numbers::pi;
+        bool reflex = false;
         for (int i = 0; i < degree; ++i) {
             const Eigen::Vector3d back = -sides[(i + degree - 1) % degree];
+            reflex = reflex || (degree == 4 && sides[i].cross(back).dot(area) < -1e-12);
             angle = std::min(angle, std::atan2(back.cross(sides[i]).norm(), back.dot(sides[i])));
         }
-        return {area.norm() / longest_square, angle, area.z() > 0.0};
+        return {area.norm() / longest_square, angle, area.z() > 0.0, reflex};
     }
 
     std::array<int, 4> sorted_corners(int face) const {
@@ -332,6 +340,24 @@ class Examination {
 };
 
 }  // namespace
+
+bool spoils_topology(Defect defect) {
+    switch (defect) {
+        case Defect::empty:
+        case Defect::not_finite:
+        case Defect::index_out_of_range:
+        case Defect::too_many_corners:
+        case Defect::non_manifold_edge:
+        case Defect::non_manifold_vertex:
+        case Defect::inconsistent_orientation:
+        case Defect::not_orientable:
+        case Defect::duplicate_face:
+        case Defect::degenerate_face:
+            return true;
+        default:
+            return false;
+    }
+}
 
 std::vector<Finding> diagnose(const Mesh& mesh) {
     return Examination(mesh).run();

@@ -24,6 +24,7 @@ enum class Defect {
     zero_area_face,
     sliver_face,
     folded_planar_face,  ///< planar mesh with faces of both orientations
+    reflex_quad,         ///< a quad with a reflex corner: the bilinear map of a square onto it folds
 };
 
 /// One finding: what, where, what next.
@@ -34,6 +35,9 @@ struct Finding {
     std::string next_step;
     std::vector<int> indices;  ///< vertices, edges as vertex pairs or faces, as the sentence says; counted from 0
 };
+
+/// True of the defects with which edges, loops and genus are not defined.
+bool spoils_topology(Defect defect);
 
 /// Examines a mesh completely; no input makes it fail. Fatal findings come first.
 std::vector<Finding> diagnose(const Mesh& mesh);

@@ -17,4 +17,16 @@ Eigen::VectorXcd planar_coordinates(const Mesh& mesh) {
     return coordinates;
 }
 
+Positions fitted_to_unit_square(const Positions& points) {
+    if (points.rows() == 0) return points;
+    const Eigen::RowVectorXd low = points.colwise().minCoeff();
+    // Halves, since the difference of two doubles may be too large for one.
+    const Eigen::RowVectorXd half = 0.5 * points.colwise().maxCoeff() - 0.5 * low;
+    const double size = half.maxCoeff();
+    Positions fitted = 0.5 * points;
+    fitted.rowwise() -= 0.5 * low;
+    if (size > 0) fitted /= size;
+    return fitted;
+}
+
 }  // namespace beltrami

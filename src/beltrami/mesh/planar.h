@@ -15,4 +15,8 @@ bool seen_from_below(const Mesh& mesh);
 /// @pre is_planar(mesh), indices in range
 Eigen::VectorXcd planar_coordinates(const Mesh& mesh);
 
+/// Points moved and scaled uniformly so that their bounding box lies in [0, 1]², at 0, its longer side from 0 to 1.
+/// @param points n×2, finite
+Positions fitted_to_unit_square(const Positions& points);
+
 }  // namespace beltrami

@@ -62,7 +62,7 @@ Submesh keep_faces(const Mesh& mesh, const std::vector<int>& faces) {
     return part;
 }
 
-Submesh largest_component(const Mesh& mesh) {
+std::vector<std::vector<int>> component_faces(const Mesh& mesh) {
     const EdgeTable table = edge_table(mesh.faces, mesh.vertex_count());
     DisjointSets sets(mesh.face_count());
     for (int edge = 0; edge < table.edge_count(); ++edge) {
@@ -70,14 +70,24 @@ Submesh largest_component(const Mesh& mesh) {
             sets.join(table.corner_faces[table.corners_of(edge)[0]], table.corner_faces[corner]);
         }
     }
-    std::vector<int> sizes(mesh.face_count(), 0);
-    for (int face = 0; face < mesh.face_count(); ++face) ++sizes[sets.find(face)];
-    const int largest = static_cast<int>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
-    std::vector<int> faces;
+    std::vector<std::vector<int>> components;
+    std::vector<int> index(mesh.face_count(), -1);
     for (int face = 0; face < mesh.face_count(); ++face) {
-        if (sets.find(face) == largest) faces.push_back(face);
+        int& component = index[sets.find(face)];  // of the component's first face
+        if (component < 0) {
+            component = static_cast<int>(components.size());
+            components.emplace_back();
+        }
+        components[component].push_back(face);
     }
-    return keep_faces(mesh, faces);
+    return components;
+}
+
+Submesh largest_component(const Mesh& mesh) {
+    const std::vector<std::vector<int>> components = component_faces(mesh);
+    const auto fewer = [](const std::vector<int>& a, const std::vector<int>& b) { return a.size() < b.size(); };
+    const auto largest = std::max_element(components.begin(), components.end(), fewer);
+    return keep_faces(mesh, largest == components.end() ? std::vector<int>() : *largest);
 }
 
 Submesh remove_unreferenced(const Mesh& mesh) {

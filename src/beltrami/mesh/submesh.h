@@ -18,6 +18,11 @@ struct Submesh {
 /// @pre indices of the faces are in range; texture coordinates, if any, have one index per corner
 Submesh keep_faces(const Mesh& mesh, const std::vector<int>& faces);
 
+/// The faces of every component, ascending, components by their first faces. Faces are connected across edges, so parts
+/// that touch in a vertex alone come apart.
+/// @pre indices of the faces are in range
+std::vector<std::vector<int>> component_faces(const Mesh& mesh);
+
 /// The component with the most faces (of equals, the one with the first face). Faces are connected across edges, so
 /// parts that touch in a vertex alone come apart.
 /// @pre indices of the faces are in range

@@ -437,6 +437,15 @@ std::string to_json(const Record& record) {
                 {{"method", other.method}, {"map", to_object(other.map)}, {"solve", to_object(other.solve)}});
         json["comparison"] = std::move(methods);
     }
+    if (!record.components.empty()) {
+        Json parts = Json::array();
+        for (const ComponentRecord& part : record.components)
+            parts.push_back({{"first_face", part.first_face},
+                             {"faces", part.faces},
+                             {"map", to_object(part.map)},
+                             {"solve", to_object(part.solve)}});
+        json["components"] = std::move(parts);
+    }
     json["warnings"] = record.warnings;
     // Names of files may hold any bytes; JSON holds UTF-8 only.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

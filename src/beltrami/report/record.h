@@ -137,6 +137,13 @@ struct MethodRecord {
     SolveRecord solve;
 };
 
+/// A component that was mapped by itself.
+struct ComponentRecord {
+    int first_face = 0, faces = 0;  ///< of the source
+    MapRecord map;
+    SolveRecord solve;
+};
+
 /// The record of one command, as docs/json.md describes it.
 struct Record {
     std::string command;
@@ -156,6 +163,7 @@ struct Record {
     std::optional<GridRecord> grid;
     std::optional<DistancesRecord> distances;
     std::vector<MethodRecord> comparison;
+    std::vector<ComponentRecord> components;
     std::vector<std::string> warnings;
 };
 

@@ -1,5 +1,7 @@
 #include <beltrami/starts/sliding_loops.h>
 
+#include <cmath>
+#include <numbers>
 #include <string>
 
 #include <beltrami/base/error.h>
@@ -8,8 +10,15 @@ namespace beltrami {
 
 namespace {
 
-/// A loop's image encloses at least this part of what its curve does.
+/// A loop's image encloses at least this part of what it could.
 constexpr double kLeastArea = 0.5;
+
+/// The part of a disk's area that a polygon of n corners can enclose. Of all convex curves ellipses leave the largest
+/// inscribed polygon the least part (E. Sas, Compositio Math. 6, 1939).
+double inscribed_part(std::size_t corners) {
+    const double turn = 2 * std::numbers::pi / static_cast<double>(corners);
+    return std::sin(turn) / turn;
+}
 
 double enclosed_area(const std::vector<int>& loop, const Eigen::VectorXcd& map) {
     double twice = 0;
@@ -35,10 +44,12 @@ std::vector<LoopOnto> loops_onto(const Surface& source, const SlidingBoundary& b
 
 void require_not_collapsed(const std::vector<LoopOnto>& loops) {
     for (const LoopOnto& loop : loops)
-        if (!(loop.area_ratio > kLeastArea))
+        if (const double most = inscribed_part(loop.parameters.size()); !(loop.area_ratio > kLeastArea * most))
             throw Error(Cause::not_solved,
                         "boundary loop " + std::to_string(loop.loop) + " has collapsed: its image encloses " +
-                            std::to_string(100 * loop.area_ratio) + " % of what its curve does",
+                            std::to_string(100 * loop.area_ratio) + " % of what its curve does, where its " +
+                            std::to_string(loop.parameters.size()) + " vertices could enclose " +
+                            std::to_string(100 * most) + " %",
                         "give the loop more vertices, or lead the start there by waypoints");
 }
 

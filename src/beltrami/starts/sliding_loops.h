@@ -19,7 +19,8 @@ struct LoopOnto {
 std::vector<LoopOnto> loops_onto(const Surface& source, const SlidingBoundary& boundary, const std::vector<int>& curves,
                                  const Eigen::VectorXcd& map);
 
-/// @throw Error not_solved if the image of a loop encloses less than half of what its curve does: it has collapsed
+/// @throw Error not_solved if the image of a loop encloses less than half of what its vertices could on the curve: it
+/// has collapsed
 void require_not_collapsed(const std::vector<LoopOnto>& loops);
 
 }  // namespace beltrami

@@ -135,4 +135,9 @@ Mark nearest_mark(const TargetDomain& domain, int vertex, Complex point) {
     return best;
 }
 
+double distance_from(const TargetDomain& domain, const Mark& mark, Complex point) {
+    const TargetCurve& curve = domain.curve(on_curve(mark).curve);
+    return std::abs(curve.point(on_curve(mark).parameter) - point) / curve.length();
+}
+
 }  // namespace beltrami

@@ -69,6 +69,12 @@ const CurveParameter& on_curve(const Mark& mark);
 /// @throw Error bad_boundary if the point is not finite
 Mark nearest_mark(const TargetDomain& domain, int vertex, Complex point);
 
+/// A mark further from where it was meant than this part of its curve's length is hardly meant so.
+constexpr double kFarMark = 0.01;
+
+/// How far a mark on a curve lies from the place that was meant, as a part of its curve's length. @pre it is one
+double distance_from(const TargetDomain& domain, const Mark& mark, Complex point);
+
 /// @throw Error bad_option unless partners pairs every loop with a curve of its own; bad_boundary naming vertices that
 ///        are not on the boundary or marked twice, marks that are not on the partner of their loop, fall on one place
 ///        or follow each other along the curve in another order than along the loop

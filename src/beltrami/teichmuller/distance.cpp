@@ -15,6 +15,17 @@ double half_log(double K) {
     return 0.5 * std::log(std::max(1.0, K));
 }
 
+/// Does something and puts a name before what goes wrong.
+template <class Action>
+void naming(const std::string& name, const std::vector<int>& shapes, const Action& action) {
+    try {
+        action();
+    } catch (const Error& error) {
+        if (error.cause() == Cause::cancelled) throw;
+        throw Error(error.cause(), name + ": " + error.what(), {}, shapes);
+    }
+}
+
 Distance distance_of(const ExtremalMap& map) {
     return {half_log(map.K), half_log(map.K_lower), half_log(map.K_upper),
             map.termination == Termination::converged && map.one_to_one()};
@@ -41,14 +52,20 @@ Distance teichmueller_distance(const Surface& a, const Surface& b, const Corresp
 }
 
 DistanceMatrix distance_matrix(const std::vector<Surface>& surfaces, const Correspondence& wanted,
-                               const ExtremalOptions& options, const std::function<bool(int done, int all)>& progress) {
+                               const ExtremalOptions& options, const std::function<bool(int done, int all)>& progress,
+                               const std::vector<std::string>& names) {
     const int n = static_cast<int>(surfaces.size());
     if (n < 2) throw Error(Cause::bad_option, "a distance needs two shapes");
+    if (!names.empty() && static_cast<int>(names.size()) != n)
+        throw Error(Cause::bad_option,
+                    "there are " + std::to_string(names.size()) + " names for " + std::to_string(n) + " shapes");
+    const auto name = [&](int i) { return names.empty() ? "shape " + std::to_string(i) : names[i]; };
+    for (int i = 0; i < n; ++i) naming(name(i), {i}, [&] { require_genus_zero(surfaces[i]); });
     for (int i = 1; i < n; ++i)
         if (surfaces[i].topology.boundary_loops.size() != surfaces[0].topology.boundary_loops.size())
             throw Error(Cause::bad_boundary,
-                        "shape 0 has " + std::to_string(surfaces[0].topology.boundary_loops.size()) +
-                            " boundary loops, shape " + std::to_string(i) + " has " +
+                        name(0) + " has " + std::to_string(surfaces[0].topology.boundary_loops.size()) +
+                            " boundary loops, " + name(i) + " has " +
                             std::to_string(surfaces[i].topology.boundary_loops.size()),
                         "compare shapes with the same number of holes", {0, i});
     DistanceMatrix result;
@@ -56,7 +73,9 @@ DistanceMatrix distance_matrix(const std::vector<Surface>& surfaces, const Corre
     int done = 0;
     for (int i = 0; i < n; ++i)
         for (int j = i + 1; j < n; ++j) {
-            const Distance d = teichmueller_distance(surfaces[i], surfaces[j], wanted, options, wanted.outer_loop);
+            Distance d;
+            naming(name(i) + " and " + name(j), {i, j},
+                   [&] { d = teichmueller_distance(surfaces[i], surfaces[j], wanted, options, wanted.outer_loop); });
             result.distance(i, j) = result.distance(j, i) = d.distance;
             result.lower(i, j) = result.lower(j, i) = d.lower;
             result.upper(i, j) = result.upper(j, i) = d.upper;

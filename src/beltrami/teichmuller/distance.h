@@ -31,10 +31,13 @@ struct DistanceMatrix {
 
 /// @param surfaces at least two, kept by reference during the call
 /// @param progress called after each pair with their number; returning false cancels (Error cancelled)
-/// @throw Error bad_boundary naming two shapes with different numbers of loops; as extremal_map
+/// @param names    what errors call the shapes; empty: "shape 0" …
+/// @throw Error bad_mesh naming a shape that is not of genus 0 with a boundary; bad_boundary naming two shapes with
+///        different numbers of loops; as extremal_map, naming the pair
 DistanceMatrix distance_matrix(const std::vector<Surface>& surfaces, const Correspondence& wanted = {},
                                const ExtremalOptions& options = {},
-                               const std::function<bool(int done, int all)>& progress = {});
+                               const std::function<bool(int done, int all)>& progress = {},
+                               const std::vector<std::string>& names = {});
 
 /// A step of hierarchical clustering: two clusters become one.
 struct Merge {

@@ -23,6 +23,7 @@
 #include <beltrami/teichmuller/problem_chart.h>
 #include <beltrami/teichmuller/record_proofs.h>
 #include <beltrami/teichmuller/sliding_solver.h>
+#include <beltrami/unfold/convex_combination_map.h>
 #include <beltrami/unfold/fold_free.h>
 
 namespace beltrami {
@@ -362,11 +363,16 @@ struct ExtremalSolver::Implementation {
         return true;
     }
 
-    /// Opens what folds are left.
+    /// Opens what folds are left; of a convex target, where all else fails, from a map that never had any.
     bool remove_folds() {
-        const FoldFreeMap opened = fold_free_map(
-            source, held(), problem.coefficient_on_source(teichmueller_coefficient(step.k, step.phi)), map);
+        const Eigen::VectorXcd nu = problem.coefficient_on_source(teichmueller_coefficient(step.k, step.phi));
+        FoldFreeMap opened = fold_free_map(source, held(), nu, map);
         other_factorizations += opened.factorizations;
+        if (!opened.fold_free)
+            if (const auto start = convex_embedding(source, boundary, other_factorizations)) {
+                opened = fold_free_map(source, held(), nu, *start);
+                other_factorizations += opened.factorizations;
+            }
         if (opened.fold_free) map = opened.map;
         return opened.fold_free;
     }
@@ -551,10 +557,11 @@ ExtremalMap ExtremalSolver::Implementation::record() const {
         if (!wanted.turns.empty())
             for (const HoleTurns& hole : result.homotopy.holes)
                 if (hole.turns != wanted.turns[hole.loop])
-                    result.warnings.push_back("the hole of loop " + std::to_string(hole.loop) +
-                                              " has lost its turns: " + std::to_string(wanted.turns[hole.loop]) +
-                                              " were wanted, the map has " + std::to_string(hole.turns) +
-                                              "; the mesh is too coarse to hold them");
+                    throw Error(Cause::not_solved,
+                                "the hole of loop " + std::to_string(hole.loop) +
+                                    " has lost its turns: " + std::to_string(wanted.turns[hole.loop]) +
+                                    " were wanted, the map has " + std::to_string(hole.turns),
+                                "the mesh is too coarse to hold them: refine it, or ask for fewer", {hole.loop});
     }
     result.distortion = distortion(operators, map);
     result.phi = problem.differential_on_source(step.phi);
@@ -577,12 +584,16 @@ ExtremalMap ExtremalSolver::Implementation::record() const {
     result.factorizations += bounds.factorizations;
     result.corners = corners;
     for (const BoundaryCorner& corner : corners)
-        if (corner.safe_bound > 1 && resolved(corner) &&
+        // An infinite bound is that of an angle measured as none: no smooth data have it.
+        if (corner.safe_bound > 1 && std::isfinite(corner.safe_bound) && resolved(corner) &&
             (!result.sharpest || corner.safe_bound > result.sharpest->safe_bound))
             result.sharpest = corner;
     if (result.sharpest) {
         result.bounds.push_back({"corner", result.sharpest->safe_bound, Bound::Of::extremal, false});
-        if (converged && corner_decides(*result.sharpest, result.K)) {
+        // Where the bracket is closed, the corner is one of the mesh's outline and not of the problem.
+        const bool proved =
+            std::isfinite(result.K_max) && !corner_decides({.safe_bound = result.K_max}, result.K_lower);
+        if (converged && !proved && corner_decides(*result.sharpest, result.K)) {
             result.termination = Termination::not_teichmuller;
             result.warnings.push_back(corner_warning(*result.sharpest));
         }

@@ -10,6 +10,7 @@
 #include <beltrami/mesh/planar.h>
 #include <beltrami/solve/beltrami_solver.h>
 #include <beltrami/unfold/branch_points.h>
+#include <beltrami/unfold/convex_combination_map.h>
 #include <beltrami/unfold/displacement_start.h>
 
 namespace beltrami {
@@ -38,6 +39,12 @@ std::optional<SplitProblem> split_of(const Surface& source, const BoundaryCondit
     return split;
 }
 
+/// Whether fewer faces are flipped, or as few and the largest |μ| is smaller.
+bool less_bad(const Distortion& a, const Distortion& b) {
+    if (a.flipped.size() != b.flipped.size()) return a.flipped.size() < b.flipped.size();
+    return a.max < b.max;
+}
+
 /// The descent from one start; steps and factorisations are added to those before.
 void descend(const Surface& surface, const BoundaryCondition& boundary, const Eigen::VectorXcd& start,
              const LeastMaximumOptions& options, LeastMaximumMap& result) {
@@ -45,7 +52,8 @@ void descend(const Surface& surface, const BoundaryCondition& boundary, const Ei
     std::replace(freedom.begin(), freedom.end(), Freedom::sliding, Freedom::fixed);
     FoldFreeMap found = fold_free_map(surface, freedom, Eigen::VectorXcd::Zero(surface.operators.sample_count()), start,
                                       {options.power, options.max_iterations, options.tolerance, options.progress});
-    result.start_max = distortion(surface.operators, start).max;
+    const Distortion before = distortion(surface.operators, start);
+    result.start_max = before.max;
     result.map = std::move(found.map);
     result.fold_free = found.fold_free;
     result.status = found.status;
@@ -53,13 +61,30 @@ void descend(const Surface& surface, const BoundaryCondition& boundary, const Ei
     result.factorizations += found.factorizations;
     result.history = std::move(found.history);
     result.distortion = distortion(surface.operators, result.map);
-    // A mean with a finite power can prefer a map whose worst face is worse.
-    if (result.start_max < 1 && !(result.distortion.max < result.start_max)) {
+    // A mean with a finite power can prefer a map whose worst face is worse, and a fold that does not open can get
+    // worse.
+    if (!less_bad(result.distortion, before)) {
         result.map = start;
-        result.distortion = distortion(surface.operators, result.map);
-        result.fold_free = true;
+        result.distortion = before;
+        result.fold_free = before.max < 1;
     }
     result.branch_points = branch_points(surface, result.map);
+}
+
+/// The descent from a map that never had folds, where the target is convex; the better end of the two is the result.
+void descend_from_embedding(const Surface& surface, const BoundaryCondition& boundary,
+                            const LeastMaximumOptions& options, LeastMaximumMap& result) {
+    const auto embedding = convex_embedding(surface, boundary, result.factorizations);
+    if (!embedding) return;
+    LeastMaximumMap other = result;
+    descend(surface, boundary, *embedding, options, other);
+    other.start_max = result.start_max;
+    if (less_bad(other.distortion, result.distortion)) {
+        result = std::move(other);
+    } else {
+        result.iterations = other.iterations;
+        result.factorizations = other.factorizations;
+    }
 }
 
 bool one_to_one(const LeastMaximumMap& map) {
@@ -109,6 +134,8 @@ LeastMaximumMap least_maximum_map(const Surface& source, const Constraints& cons
     const Surface& surface = split_surface ? *split_surface : source;
     if (result.extremal) {
         descend(surface, boundary, start, options, result);
+        if (!result.fold_free || result.extremal->folds_removed)
+            descend_from_embedding(surface, boundary, options, result);
     } else {
         start = conformal_start(surface, boundary);
         result.factorizations += 1;

@@ -24,7 +24,7 @@ struct LeastMaximumOptions {
 
 /// Where edges had to be split, #V and #F are those of the split mesh.
 struct LeastMaximumMap {
-    Eigen::VectorXcd map;   ///< #V images; the start, where its largest |μ| is not larger
+    Eigen::VectorXcd map;   ///< #V images; the start, unless it has more flipped faces or as many and a larger |μ|
     Distortion distortion;  ///< of map; its max is what has been made small
     double start_max = 0;   ///< largest |μ| of the start; above 1 where it was folded
     bool fold_free = false;
@@ -47,10 +47,10 @@ struct LeastMaximumMap {
 /// with p doubling up to options.power, without ever folding. That is a function of |μ| which rises with it, so p → ∞
 /// is the min-max map; the problem is not convex and what is found is a local minimum near the start.
 ///
-/// The start is the extremal map where the whole boundary is prescribed; else the least-squares conformal map, and
-/// where that ends folded or branched also the one of displacement_start.h; the better end of the two is the result.
-/// Folds are opened first. Boundary vertices that are not prescribed are free (natural condition). Interior vertices on
-/// lines stay where the start has them.
+/// The start is the extremal map where the whole boundary is prescribed, and where that had or has folds also the map
+/// of convex_embedding; else the least-squares conformal map, and where that ends folded or branched also the one of
+/// displacement_start.h; the better end of the two is the result. Folds are opened first. Boundary vertices that are
+/// not prescribed are free (natural condition). Interior vertices on lines stay where the start has them.
 ///
 /// Where a part of the boundary is free no extremal map exists in general: an admissible φ vanishes along it, hence
 /// everywhere, and the least K of the smooth problem is 1, which no map attains. The largest |μ| of a mesh then falls

@@ -197,6 +197,27 @@ TEST(Feasibility, Pins) {
     EXPECT_EQ(examine(plate.surface, both).indices, (std::vector{v, w}));
 }
 
+TEST(Feasibility, LinesThatMissTheTarget) {
+    const Plate plate;
+    const int v = plate.inner_vertex();
+    const auto on_line = [&](Complex point, Complex direction) {
+        BoundaryCondition boundary = plate.boundary;
+        boundary.pin_to_line(v, point, direction);
+        return examine(plate.surface, boundary);
+    };
+    EXPECT_FALSE(on_line({0.05, 7}, {0, 3}).refused);
+    EXPECT_FALSE(on_line(Plate::first_centre, {1, 1}).refused) << "through a hole, but not only";
+    EXPECT_FALSE(on_line({-3, -3.9}, {1, 1}).refused);
+    for (const auto& [point, direction] :
+         {std::pair(Complex(5, 0.5), Complex(0, 1)), std::pair(Complex(1, 0), Complex(0, 1)),
+          std::pair(Complex(0.5, 2.1), Complex(1, 1))}) {
+        const Refusal missed = on_line(point, direction);
+        EXPECT_TRUE(missed.says("misses"));
+        EXPECT_TRUE(missed.names(v));
+        EXPECT_EQ(missed.cause, Cause::bad_boundary);
+    }
+}
+
 TEST(Feasibility, FreePartsAreNotJudged) {
     const Surface surface(disk(8));
     const auto& loop = surface.topology.boundary_loops[0];

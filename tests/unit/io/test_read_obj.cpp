@@ -120,13 +120,25 @@ TEST(ReadObj, LocaleChangesNothing) {
     RecordProperty("german_locale", german);
 }
 
-TEST(ReadObj, LargeFacesAreKeptOutAndNamed) {
-    std::string text = std::string(square) + "v 2 2 2\nvt 0 0\nf 1 2 3 4 5\nf 1/1 2/1 3/1\n";
+TEST(ReadObj, LargeFacesAreCutIntoTrianglesAndNamed) {
+    std::string text = std::string(square) + "v -1 .5 0\nvt 0 0\nusemtl a\nf 1 2 3 4 5\nusemtl b\nf 1/1 2/1 3/1\n";
     const LoadedMesh one = read_obj(text, "t.obj");
-    EXPECT_EQ(one.mesh.face_count(), 1);
-    EXPECT_EQ(one.mesh.texture->corners, (std::vector{0, 0, 0}));
+    ASSERT_EQ(one.mesh.face_count(), 4);
+    EXPECT_EQ(corners_of(one.mesh, 3), (std::vector{0, 1, 2}));
+    EXPECT_EQ(one.mesh.texture->corners, (std::vector{-1, -1, -1, -1, -1, -1, -1, -1, -1, 0, 0, 0}));
+    // Each triangle is a part of the polygon: areas add up, and all look the same way.
+    double area = 0;
+    for (int f = 0; f < 3; ++f) {
+        const double part = face_vector_area(one.mesh, f).z();
+        EXPECT_GT(part, 0);
+        area += part;
+    }
+    EXPECT_NEAR(area, 1.5, 1e-14);
+    ASSERT_EQ(one.attributes.face_states.size(), 4U);
+    EXPECT_EQ(one.attributes.states[one.attributes.face_states[2]].at("usemtl"), "a");
+    EXPECT_EQ(one.attributes.states[one.attributes.face_states[3]].at("usemtl"), "b");
     ASSERT_EQ(one.warnings.size(), 1U);
-    EXPECT_NE(one.warnings[0].find("t.obj:7: a face with 5 corners"), std::string::npos) << one.warnings[0];
+    EXPECT_NE(one.warnings[0].find("t.obj:8: a face with 5 corners"), std::string::npos) << one.warnings[0];
 
     for (int i = 0; i < 100; ++i) text += "f 1 2 3 4 5 1\n";
     const LoadedMesh many = read_obj(text, "t.obj");

@@ -76,9 +76,28 @@ TEST(ReadOff, KeepsTextureCoordinates) {
     EXPECT_EQ(mesh.texture->corners, (std::vector{2, 1, 0}));
 }
 
-TEST(ReadOff, LargeFacesAreKeptOut) {
-    const LoadedMesh loaded = read_off("OFF 5 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 2 2\n5 0 1 2 3 4\n3 0 1 2\n", "t.off");
-    EXPECT_EQ(loaded.mesh.face_count(), 1);
+TEST(ReadOff, LinesMeanNothing) {
+    const Positions points = rows({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+    for (const std::string_view text : {
+             "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0\n1\n2\n3\n0 2 3\n",  // a face over several lines
+             "OFF\n4\n2\n0\n0 0\n0 1 0 0\n1 1 0 0 1 0\n3 0 1 2 3 0 2 3\n",     // several on a line
+             "OFF 4 2 0 0 0 0 1 0 0 1 1 0 0 1 0 3 0 1 2 3 0 2 3",              // all on one
+             "OFF\n4 2 0\n0 0 0\n1\n0\n0\n1 1 0\n0 1 0\n3 0 1 2 255 0 0\n3 0 2\n3 9 9 9\n",  // with colours
+         }) {
+        SCOPED_TRACE(std::string(text));
+        const Mesh mesh = read_off(text, "t.off").mesh;
+        expect_same_bits(mesh.positions, points);
+        ASSERT_EQ(mesh.face_count(), 2);
+        EXPECT_EQ(corners_of(mesh, 0), (std::vector{0, 1, 2}));
+        EXPECT_EQ(corners_of(mesh, 1), (std::vector{0, 2, 3}));
+    }
+}
+
+TEST(ReadOff, LargeFacesAreCutIntoTriangles) {
+    const LoadedMesh loaded =
+        read_off("OFF 5 2 0\n0 0 0\n1 0 0\n1 1 0\n.5 1.5 0\n0 1 0\n5 0 1 2 3 4\n3 0 1 2\n", "t.off");
+    EXPECT_EQ(loaded.mesh.face_count(), 4);
+    EXPECT_EQ(corners_of(loaded.mesh, 3), (std::vector{0, 1, 2}));
     ASSERT_EQ(loaded.warnings.size(), 1U);
     EXPECT_TRUE(loaded.warnings[0].starts_with("t.off:7:")) << loaded.warnings[0];
 }

@@ -53,7 +53,39 @@ TEST(ReadPly, Ascii) {
     ASSERT_EQ(mesh.face_count(), 2);
     EXPECT_EQ(corners_of(mesh, 0), (std::vector{0, 1, 2, 3}));
     EXPECT_EQ(corners_of(mesh, 1), (std::vector{2, 1, 0}));
-    EXPECT_FALSE(mesh.texture);
+    ASSERT_TRUE(mesh.texture);  // of the second face alone
+    EXPECT_EQ(mesh.texture->corners, (std::vector{-1, -1, -1, -1, 0, 1, 2}));
+}
+
+TEST(ReadPly, TextureOfFaceCorners) {
+    const std::string head =
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nelement face 2\n"
+        "property list uchar int vertex_indices\nproperty list uchar float texcoord\nend_header\n0 0\n1 0\n1 1\n0 1\n";
+    // Vertex 0 has one point in both faces, vertex 2 two.
+    const Mesh mesh = ply(head + "3 0 1 2 6 0 0 1 0 1 1\n3 0 2 3 6 0 0 .5 1 0 1\n");
+    ASSERT_TRUE(mesh.texture);
+    EXPECT_EQ(mesh.texture->corners, (std::vector{0, 1, 2, 0, 3, 4}));
+    expect_same_bits(mesh.texture->points, rows({{0, 0}, {1, 0}, {1, 1}, {.5, 1}, {0, 1}}));
+    expect_ply_error("t.ply:14: a face with 3 corners has 4 numbers in its list texcoord instead of 6",
+                     head + "3 0 1 2 4 0 0 1 0\n3 0 2 3 0\n");
+}
+
+TEST(ReadPly, KeepsWhatElseTheFileSays) {
+    const LoadedMesh loaded = read_ply(
+        "ply\nformat ascii 1.0\ncomment made  by hand\nelement vertex 3\nproperty float x\nproperty uchar red\n"
+        "property float y\nproperty list uchar short tags\nelement face 1\nproperty list uchar int vertex_indices\n"
+        "property int label\nend_header\n0 7 0 0\n1 8 0 2 -3 4\n0 9 1 1 5\n3 0 1 2 -6\n",
+        "t.ply");
+    const FileAttributes& kept = loaded.attributes;
+    EXPECT_EQ(kept.header, (std::vector<std::string>{"comment made by hand"}));
+    ASSERT_EQ(kept.vertex_columns.size(), 2U);
+    EXPECT_EQ(kept.vertex_columns[0].name, "red");
+    EXPECT_EQ(kept.vertex_columns[0].type, NumberType::uint8);
+    EXPECT_EQ(kept.vertex_columns[0].values, (std::vector<double>{7, 8, 9}));
+    EXPECT_EQ(kept.vertex_columns[1].values, (std::vector<double>{-3, 4, 5}));
+    EXPECT_EQ(kept.vertex_columns[1].offsets, (std::vector{0, 0, 2, 3}));
+    ASSERT_EQ(kept.face_columns.size(), 1U);
+    EXPECT_EQ(kept.face_columns[0].values, (std::vector<double>{-6}));
 }
 
 TEST(ReadPly, EveryTypeInBothByteOrders) {
@@ -169,6 +201,24 @@ TEST(ReadPly, FalseCountsAreSeenBeforeAnythingIsAllocated) {
     expect_ply_error(fmt::format("t.ply: byte {}: the file ends in the middle", bytes.str().size()), bytes.str());
 }
 
+TEST(ReadPly, LineEndsOfTheHeaderMayDiffer) {
+    // Whatever the first byte of the data, here that of a float 0, 10 and 13.
+    using Ends = std::pair<std::string, std::string>;
+    for (const auto& [others, last] : {Ends("\n", "\n"), Ends("\r\n", "\r\n"), Ends("\n", "\r\n"), Ends("\n", " \n")}) {
+        std::string head;
+        for (const char* line : {"ply", "format binary_little_endian 1.0", "element vertex 3", "property uchar x",
+                                 "property uchar y", "element face 1", "property list uchar uchar vertex_indices"})
+            head += line + others;
+        for (const std::uint8_t first : {0, 10, 13}) {
+            Bytes bytes(head + "end_header" + last, std::endian::little);
+            bytes.add<std::uint8_t>({first, 1, 2, 3, 4, 5, 3, 0, 1, 2});
+            const Mesh mesh = ply(bytes.str());
+            EXPECT_EQ(mesh.positions(0, 0), first);
+            EXPECT_EQ(mesh.positions(2, 1), 5);
+        }
+    }
+}
+
 TEST(ReadPly, LargeFacesAreNamedByTheirByte) {
     Bytes bytes(
         "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty uchar x\nproperty uchar y\nelement face 1\n"
@@ -176,7 +226,7 @@ TEST(ReadPly, LargeFacesAreNamedByTheirByte) {
         std::endian::little);
     bytes.add<std::uint8_t>({0, 0, 5, 0, 0, 0, 0, 0});
     const LoadedMesh loaded = read_ply(bytes.str(), "t.ply");
-    EXPECT_EQ(loaded.mesh.face_count(), 0);
+    EXPECT_EQ(loaded.mesh.face_count(), 3);
     ASSERT_EQ(loaded.warnings.size(), 1U);
     EXPECT_NE(loaded.warnings[0].find("byte"), std::string::npos) << loaded.warnings[0];
 }

@@ -144,6 +144,89 @@ TEST(WriteMesh, ShadesAreColoursInEveryFormat) {
                  Error);
 }
 
+TEST(WriteMesh, PlyKeepsOtherProperties) {
+    const TemporaryFolder folder;
+    const std::string text =
+        "ply\nformat ascii 1.0\ncomment by hand\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
+        "z\nproperty uchar red\nproperty float heat\nproperty list uchar short tags\nelement face 1\nproperty list "
+        "uchar "
+        "int vertex_indices\nproperty int label\nproperty double K\nend_header\n0 0 0 7 .5 0\n1 0 0 8 .25 2 -3 4\n"
+        "0 1 0 9 .1 1 5\n3 0 1 2 -6 77\n";
+    const LoadedMesh loaded = read_ply(text, "t.ply");
+    Eigen::VectorXd K(1);
+    K << 2;
+    for (const PlyEncoding encoding : {PlyEncoding::ascii, PlyEncoding::binary_little_endian}) {
+        write_ply(folder / "a.ply", loaded.mesh, {{"K", K}}, {}, encoding, {}, loaded.attributes);
+        const LoadedMesh again = read_mesh(folder / "a.ply");
+        EXPECT_EQ(again.attributes.header, loaded.attributes.header);
+        ASSERT_EQ(again.attributes.vertex_columns.size(), 3U);
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_EQ(again.attributes.vertex_columns[c].name, loaded.attributes.vertex_columns[c].name);
+            EXPECT_EQ(again.attributes.vertex_columns[c].type, loaded.attributes.vertex_columns[c].type);
+            EXPECT_EQ(again.attributes.vertex_columns[c].values, loaded.attributes.vertex_columns[c].values);
+            EXPECT_EQ(again.attributes.vertex_columns[c].offsets, loaded.attributes.vertex_columns[c].offsets);
+        }
+        ASSERT_EQ(again.attributes.face_columns.size(), 2U);  // K is the new one
+        EXPECT_EQ(again.attributes.face_columns[0].values, (std::vector<double>{2}));
+        EXPECT_EQ(again.attributes.face_columns[1].values, (std::vector<double>{-6}));
+    }
+}
+
+TEST(WriteMesh, ObjKeepsMaterialsGroupsAndColours) {
+    const TemporaryFolder folder;
+    const std::string text =
+        "mtllib a b.mtl\no thing\nv 0 0 0 1 .5 .25\nv 1 0 0 0 0 0\nv 1 1 0 .1 .2 .3\nv 0 1 0 1 1 1\nv 2 0 0 1 1 1\n"
+        "f 1 2 3\ng left right\nusemtl red paint\nf 1 3 4\nusemtl blue\nf 2 5 3\n";
+    const LoadedMesh loaded = read_obj(text, "t.obj");
+    write_mesh(folder / "a.obj", {.mesh = loaded.mesh, .attributes = loaded.attributes});
+    const std::string written = get(folder / "a.obj");
+    EXPECT_EQ(written,
+              "mtllib a b.mtl\nv 0 0 0 1 0.5 0.25\nv 1 0 0 0 0 0\nv 1 1 0 0.1 0.2 0.3\nv 0 1 0 1 1 1\nv 2 0 0 1 1 1\n"
+              "o thing\nf 1 2 3\ng left right\nusemtl red paint\nf 1 3 4\nusemtl blue\nf 2 5 3\n");
+    // Colours go from format to format.
+    write_mesh(folder / "a.ply", {.mesh = loaded.mesh, .attributes = loaded.attributes});
+    const FileAttributes ply = read_mesh(folder / "a.ply").attributes;
+    ASSERT_EQ(ply.vertex_columns.size(), 3U);
+    EXPECT_EQ(ply.vertex_columns[1].name, "green");
+    EXPECT_EQ(ply.vertex_columns[1].type, NumberType::uint8);
+    EXPECT_EQ(ply.vertex_columns[1].values, (std::vector<double>{128, 0, 51, 255, 255}));
+    write_mesh(folder / "b.obj", {.mesh = loaded.mesh, .attributes = ply});
+    EXPECT_EQ(read_mesh(folder / "b.obj").attributes.vertex_columns[1].values[2], 51 / 255.0);
+}
+
+TEST(WriteMesh, MapsWithSeamsArePerCorner) {
+    const TemporaryFolder folder;
+    Mesh mesh;
+    mesh.positions = rows({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+    mesh.faces.add({0, 1, 2});
+    mesh.faces.add({0, 2, 3});
+    const TextureCoordinates seams{rows({{0, 0}, {1, 0}, {1, 1}, {7, 0}, {8, 1}, {7, 1}}), {0, 1, 2, 3, 4, 5}};
+    for (const char* name : {"a.obj", "a.ply"}) {
+        write_mesh(folder / name, {.mesh = mesh, .corner_map = seams});
+        const Mesh again = read_mesh(folder / name).mesh;
+        ASSERT_TRUE(again.texture);
+        EXPECT_EQ(again.texture->corners, seams.corners);
+        expect_same_bits(again.texture->points, seams.points);
+    }
+    expect_error(Cause::bad_option, "seams",
+                 [&] { write_mesh(folder / "a.off", {.mesh = mesh, .corner_map = seams}); });
+}
+
+TEST(FileAttributes, GoWithVerticesAndFaces) {
+    FileAttributes attributes;
+    attributes.vertex_columns = {{"red", NumberType::uint8, {}, {0, 10, 21}, {}},
+                                 {"tags", NumberType::int16, NumberType::uint8, {1, 2, 3}, {0, 1, 1, 3}}};
+    attributes.face_columns = {{"heat", NumberType::float32, {}, {.5, 1.5}, {}}};
+    attributes.states = {{{"usemtl", "a"}}, {{"usemtl", "b"}}};
+    attributes.face_states = {0, 1};
+    const FileAttributes part = carried(attributes, {{2}, {0, 1}, {0, 2}, {}}, {1, 1, 0});
+    EXPECT_EQ(part.vertex_columns[0].values, (std::vector<double>{21, 5, 11, 0}));
+    EXPECT_EQ(part.vertex_columns[1].values, (std::vector<double>{2, 3, 1, 1}));
+    EXPECT_EQ(part.vertex_columns[1].offsets, (std::vector{0, 2, 3, 4, 4}));
+    EXPECT_EQ(part.face_columns[0].values, (std::vector<double>{1.5, 1.5, .5}));
+    EXPECT_EQ(part.face_states, (std::vector{1, 1, 0}));
+}
+
 TEST(WriteMesh, LocaleChangesNothing) {
     struct Comma : std::numpunct<char> {
         char do_decimal_point() const override { return ','; }
