@@ -173,6 +173,7 @@ class Measure final : public Command {
     Eigen::VectorXcd map_;  ///< #V, for certify_
     MeshInputOptions options_;
     MeshInput input_;
+    CommonOptions common_;
     Positions image_positions_;
     std::optional<Mesh> page_mesh_;
 };

@@ -369,8 +369,8 @@ struct ExtremalSolver::Implementation {
         FoldFreeMap opened = fold_free_map(source, held(), nu, map);
         other_factorizations += opened.factorizations;
         if (!opened.fold_free)
-            if (const auto start = convex_embedding(source, boundary, other_factorizations)) {
-                opened = fold_free_map(source, held(), nu, *start);
+            if (const auto embedding = convex_embedding(source, boundary, other_factorizations)) {
+                opened = fold_free_map(source, held(), nu, *embedding);
                 other_factorizations += opened.factorizations;
             }
         if (opened.fold_free) map = opened.map;
