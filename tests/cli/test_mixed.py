@@ -78,10 +78,10 @@ class Mixed(Command):
         write_obj(self.path("ring.obj"), points, faces)
         inside = next(i for i, p in enumerate(points) if 0.6 < np.linalg.norm(p) < 0.8)
         done = self.run_command("map", self.path("ring.obj"), "--boundary", "disk", "--hole", "1=disk:0,0,0.5", "--slide",
-                                self.write("arc.txt", f"{inside} 0\n"), "-o", self.path("o.obj"), code=1)
+                                self.write("arc.txt", f"{inside} 0\n"), "-o", self.path("o.obj"), code=5)
         self.assertIn("not on the boundary", done.stderr)
         done = self.run_command("map", self.path("ring.obj"), "--boundary", "disk", "--slide",
-                                self.write("arc.txt", "0 5\n"), "-o", self.path("o.obj"), code=1)
+                                self.write("arc.txt", "0 5\n"), "-o", self.path("o.obj"), code=5)
         self.assertFalse(pathlib.Path(self.path("o.obj")).exists())
 
 

@@ -156,7 +156,7 @@ class Mistakes(WithRing):
         return done.stderr
 
     def test_options_that_do_not_go_together(self):
-        self.assertIn("--boundary", self.fails("--onto", self.target, "--boundary", "disk"))
+        self.assertIn("--certify", self.fails("--onto", self.target, "--boundary", "disk", "--certify", "1"))
         self.assertIn("--turns", self.fails("--onto", self.target, "--turns", "1=1"))
         self.assertIn("--loops belongs to --onto", self.fails("--loops", "0:0", "--boundary", "disk"))
         self.assertIn("--loops 0:x", self.fails("--onto", self.target, "--loops", "0:x"))

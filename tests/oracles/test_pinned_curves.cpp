@@ -138,6 +138,7 @@ TEST(PinnedCurves, OfTheExactMapChangeNothing) {
 TEST(PinnedCurves, AnyPlaceSizeAndNumbering) {
     ExtremalOptions options;
     options.evening = ExtremalOptions::Evening::never;  // where it ends is decided by rounding, within 1e-4
+    options.prove = false;  // K may not be below what is proved, which an eigenvalue iteration finds to 1e-5
     for (const bool held : {false, true}) {
         bench::Problem problem = on_the_axis(0.06, -0.7, 0.2, held);
         // Away from where the free map sends the curve.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include <beltrami/base/error.h>
 #include <beltrami/base/random.h>
 
 #include "support/extremal.h"

@@ -18,7 +18,7 @@ namespace {
 
 using test::circles_target;
 using test::disk_with_holes;
-using test::expect_sound;
+using test::expect_sliding_sound;
 using test::Hole;
 
 constexpr double kPi = std::numbers::pi;
@@ -33,7 +33,7 @@ TEST(SlidingRing, ConvergesToTheRadialStretchWithSecondOrder) {
     for (const double h : {0.08, 0.04, 0.02}) {
         const ExtremalMap result =
             extremal_map(Surface(disk_with_holes({{0, 0, 0.5}}, h)), circles_target({{0, 0, 0.3}}));
-        expect_sound(result);
+        expect_sliding_sound(result);
         EXPECT_EQ(result.dimension, 1);
         const double error = std::abs(result.k - k_of(exact));
         if (last_error > 0) {
@@ -72,7 +72,7 @@ TEST_P(KnownPairs, HaveTheirKBothWays) {
     const ExtremalMap back =
         extremal_map(Surface(disk_with_holes(pair.target, 0.04)), {circles_target(pair.source), wanted});
     for (const ExtremalMap* result : {&there, &back}) {
-        expect_sound(*result);
+        expect_sliding_sound(*result);
         EXPECT_EQ(result->dimension, pair.dimension);
         // At h = .04 the error of the mesh comes on top.
         EXPECT_NEAR(result->k, pair.k, pair.uncertainty + 3e-4);
@@ -123,7 +123,7 @@ TEST(SlidingRectangle, IsTheAffineMap) {
         ASSERT_EQ(wanted.marks.size(), 4u);
         const ExtremalMap result =
             extremal_map(source, {target_domain(TargetCurve::polygon({{0, 0}, {b, 0}, {b, 1}, {0, 1}})), wanted});
-        expect_sound(result);
+        expect_sliding_sound(result);
         EXPECT_EQ(result.space, ExtremalOptions::Space::one_form_squares);
         EXPECT_NEAR(result.K, std::max(b, 1 / b), 1e-9);
         EXPECT_NEAR(result.K_max, std::max(b, 1 / b), 1e-7);
@@ -169,7 +169,7 @@ TEST(SlidingDisk, WithFourMarksHasTheRatioOfModuli) {
         const double alpha = std::asin(std::sqrt(cross));
         const double exact = std::max(modulus(alpha), modulus(to)) / std::min(modulus(alpha), modulus(to));
         const ExtremalMap result = extremal_map(source, {target_domain(TargetCurve::circle(0, 1)), wanted}, options);
-        expect_sound(result);
+        expect_sliding_sound(result);
         EXPECT_EQ(result.space, space);
         EXPECT_EQ(result.dimension, 1);
         EXPECT_NEAR(result.k, k_of(exact), 2e-3);
@@ -182,7 +182,7 @@ TEST(SlidingDisk, WithoutMarksIsConformal) {
     const Surface source(disk_with_holes({}, 0.08));
     const ExtremalMap result =
         extremal_map(source, target_domain(TargetCurve::polygon({{0, 0}, {2, 0}, {2, 1}, {0, 1}})));
-    expect_sound(result);
+    expect_sliding_sound(result);
     EXPECT_EQ(result.dimension, 0);
     EXPECT_EQ(result.K, 1);
     EXPECT_LT(result.distortion.mean, 0.05);
@@ -210,13 +210,13 @@ TEST(SlidingClasses, RotatingTheStartChangesNothing) {
     const Surface source(disk_with_holes({{-0.4, 0.1, 0.2}, {0.35, 0, 0.25}}, 0.08));
     const TargetDomain target = circles_target({{-0.5, -0.2, 0.15}, {0.3, 0.3, 0.3}});
     const ExtremalMap plain = extremal_map(source, target);
-    expect_sound(plain);
+    expect_sliding_sound(plain);
     for (const std::vector<double>& turns :
          {std::vector<double>{0.5, 0, 0}, {0, 1, -1}, {0.3, -2, 2}, {0, 0.7, 0}, {0, 2, 2}, {1, 0, 0}, {2, 0, 0}}) {
         ExtremalOptions options;
         options.start_turns = turns;
         const ExtremalMap turned = extremal_map(source, target, options);
-        expect_sound(turned);
+        expect_sliding_sound(turned);
         EXPECT_NEAR(turned.k, plain.k, 1e-5);
         // Loops turn back before anything is led, and the iteration is as short as without the turns.
         EXPECT_LE(turned.iterations, plain.iterations + 8);
@@ -277,7 +277,7 @@ TEST(SlidingInvariance, MoebiusImagesOfADomainAreFoundConformal) {
         }
         const TargetDomain target = circles_target(images);
         const ExtremalMap result = extremal_map(source, target);
-        expect_sound(result);
+        expect_sliding_sound(result);
         EXPECT_LT(result.k, 1e-3);
         EXPECT_EQ(result.start_flips, 0);
         for (const LoopOnto& loop : result.loops) {
@@ -301,7 +301,7 @@ TEST(SlidingInvariance, AMoebiusImageOfTheTargetChangesNothing) {
         far.push_back({image.centre.real(), image.centre.imag(), image.radius});
     }
     const ExtremalMap moved = extremal_map(source, circles_target(far));
-    expect_sound(moved);
+    expect_sliding_sound(moved);
     EXPECT_GT(plain.k, 0.05);
     EXPECT_NEAR(moved.k, plain.k, 5e-4);
     for (std::size_t l = 0; l < plain.loops.size(); ++l) EXPECT_EQ(moved.loops[l].curve, plain.loops[l].curve);
@@ -317,7 +317,7 @@ TEST(SlidingInvariance, AMarkThatTurnsTheRingChangesNothing) {
         const Complex z(source.mesh.positions(vertex, 0), source.mesh.positions(vertex, 1));
         wanted.marks = {{vertex, 0, target.outer.wrap(std::arg(z) + turn)}};
         const ExtremalMap result = extremal_map(source, {target, wanted});
-        expect_sound(result);
+        expect_sliding_sound(result);
         EXPECT_NEAR(result.k, exact, 2e-3);
         EXPECT_NEAR(std::abs(result.map[vertex] - z * std::polar(1.0, turn)), 0, 1e-9);
     }
@@ -339,8 +339,8 @@ TEST_P(SymmetricHoles, AreNoSpecialCase) {
     }
     const ExtremalMap there = extremal_map(Surface(disk_with_holes(from, 0.06)), circles_target(to));
     const ExtremalMap back = extremal_map(Surface(disk_with_holes(to, 0.06)), circles_target(from));
-    expect_sound(there);
-    expect_sound(back);
+    expect_sliding_sound(there);
+    expect_sliding_sound(back);
     EXPECT_NEAR(there.k, back.k, 2e-3);
     EXPECT_LT(there.K_upper / there.K_lower, 1.006);
 }

@@ -33,7 +33,7 @@ inline TargetDomain circles_target(const std::vector<Hole>& holes, double outer 
 }
 
 /// No folds, a settled iteration, the dimension of theory, loops that run around once, bounds in order.
-inline void expect_sound(const ExtremalMap& result) {
+inline void expect_sliding_sound(const ExtremalMap& result) {
     EXPECT_EQ(result.termination, Termination::converged);
     EXPECT_TRUE(result.one_to_one());
     EXPECT_EQ(result.dimension, result.expected_dimension);

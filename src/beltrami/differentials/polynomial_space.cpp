@@ -1,7 +1,6 @@
 #include <beltrami/differentials/polynomial_space.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -42,86 +41,23 @@ Eigen::MatrixXcd PolynomialSpace::generators(const ChartPoints& points) const {
     return values;
 }
 
-namespace {
-
-/// Points worked through side by side, so that the compiler can use vectors.
-constexpr int kSide = 32;
-
-/// Real and imaginary parts of some complex numbers.
-struct Parts {
-    alignas(64) std::array<double, kSide> re, im;
-    void set(int i, Complex value) {
-        re[i] = value.real();
-        im[i] = value.imag();
-    }
-    void clear() {
-        re.fill(0);
-        im.fill(0);
-    }
-    /// this = this · z + c
-    void multiply(const Parts& z, Complex c = 0) {
-        for (int i = 0; i < kSide; ++i) {
-            const double next = re[i] * z.re[i] - im[i] * z.im[i] + c.real();
-            im[i] = re[i] * z.im[i] + im[i] * z.re[i] + c.imag();
-            re[i] = next;
-        }
-    }
-    Complex sum() const {
-        double x = 0, y = 0;
-        for (int i = 0; i < kSide; ++i) {
-            x += re[i];
-            y += im[i];
-        }
-        return {x, y};
-    }
-};
-
-}  // namespace
-
 Eigen::VectorXcd PolynomialSpace::combination(const ChartPoints& points, const Eigen::VectorXcd& coefficients) const {
     Eigen::VectorXcd scaled = coefficients;
     for (int j = 0; j < size(); ++j) scaled[j] *= norm_factor(j);
     Eigen::VectorXcd values(points.positions.size());
     parallel_for(0, static_cast<int>(points.positions.size()), [&](int begin, int end) {
-        Parts z, value;
-        for (int first = begin; first < end; first += kSide) {
-            const int count = std::min(kSide, end - first);
-            z.clear();
-            value.clear();
-            for (int i = 0; i < count; ++i) z.set(i, points.positions[first + i]);
-            for (int j = degree_; j >= 0; --j) value.multiply(z, scaled[j]);
-            for (int i = 0; i < count; ++i) {
-                const Complex derivative = points.derivatives[first + i];
-                values[first + i] = Complex(value.re[i], value.im[i]) * derivative * derivative;
+        for (int i = begin; i < end; ++i) {
+            const Complex z = points.positions[i];
+            double re = 0, im = 0;
+            for (int j = degree_; j >= 0; --j) {
+                const double next = re * z.real() - im * z.imag() + scaled[j].real();
+                im = re * z.imag() + im * z.real() + scaled[j].imag();
+                re = next;
             }
+            values[i] = Complex(re, im) * points.derivatives[i] * points.derivatives[i];
         }
     });
     return values;
-}
-
-Eigen::MatrixXcd PolynomialSpace::pair(const ChartPoints& points, const Eigen::MatrixXcd& weights) const {
-    const Eigen::MatrixXcd zero = Eigen::MatrixXcd::Zero(size(), weights.cols());
-    Eigen::MatrixXcd sums = parallel_sum<Eigen::MatrixXcd>(
-        static_cast<int>(points.positions.size()), zero, [&](int begin, int end) -> Eigen::MatrixXcd {
-            Eigen::MatrixXcd part = zero;
-            Parts z, term;
-            for (int first = begin; first < end; first += kSide) {
-                const int count = std::min(kSide, end - first);
-                z.clear();
-                for (int i = 0; i < count; ++i) z.set(i, points.positions[first + i]);
-                for (Eigen::Index column = 0; column < weights.cols(); ++column) {
-                    term.clear();
-                    for (int i = 0; i < count; ++i) {
-                        const Complex derivative = points.derivatives[first + i];
-                        term.set(i, weights(first + i, column) * derivative * derivative);
-                    }
-                    for (int j = 0; j <= degree_; ++j, term.multiply(z)) part(j, column) += term.sum();
-                }
-            }
-            return part;
-        });
-    for (int j = 0; j < size(); ++j) sums.row(j) *= norm_factor(j);
-    return sums;
 }
 
 std::unique_ptr<DifferentialSpace> PolynomialSpace::refined() const {

@@ -21,8 +21,6 @@ class PolynomialSpace final : public DifferentialSpace {
     bool complex_coefficients() const override { return true; }
     Eigen::MatrixXcd generators(const ChartPoints& points) const override;
     Eigen::VectorXcd combination(const ChartPoints& points, const Eigen::VectorXcd& coefficients) const override;
-    Eigen::MatrixXcd pair(const ChartPoints& points, const Eigen::MatrixXcd& weights) const override;
-    bool quick() const override { return true; }
     std::unique_ptr<DifferentialSpace> refined() const override;
 
   private:

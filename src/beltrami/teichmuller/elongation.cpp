@@ -16,10 +16,13 @@ constexpr double kElongated = 0.75;
 /// The least and the largest |μ| at which coefficients are held, and the part of the way to 1 that is room.
 constexpr double kLeastClip = 0.95, kMostClip = 0.9999, kRoom = 0.5;
 constexpr int kDegree = 8;
+/// Samples below which so many functions would fit anything.
+constexpr int kLeastSamples = 10 * (3 + kDegree + 1);
 
 }  // namespace
 
 bool is_elongated(const Operators& operators, const Eigen::VectorXcd& harmonic) {
+    if (operators.sample_count() < kLeastSamples) return false;
     double sum = 0;
     const Eigen::VectorXcd mu = beltrami_coefficient(operators, harmonic);
     for (int s = 0; s < operators.sample_count(); ++s) {

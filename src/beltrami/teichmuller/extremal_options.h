@@ -28,9 +28,11 @@ struct ExtremalOptions : IterationOptions {
     /// Even |μ| out after the iteration (even_dilatation.h): where the map is still far from |μ| = k, always or never.
     enum class Evening { where_needed, always, never };
     Evening evening = Evening::where_needed;
-    /// A disk in space is solved in the plane of its chart (chart_metric.h) and measured on the surface; false: in the
-    /// surface's own metric.
-    bool chart_metric = true;
+    /// A disk in space is solved in the plane of its chart (chart_metric.h) and measured on the surface: quicker on
+    /// scans, but k and K are then those of the degree of φ that the rim resolves, below what the polygon's corners
+    /// force. Without slack the surface's own metric is taken unless this asks for the chart's; with slack the chart's
+    /// always.
+    bool chart_metric = false;
     /// Boundary points of a disk may move along the target by so many edges (boundary_slack.h), where the outline is
     /// not known better.
     double slack = 0;

@@ -227,8 +227,8 @@ struct ExtremalSolver::Implementation {
     /// Makes a chart that of the problem; returns where φ may be singular in it.
     Singularities take_chart(Chart chart, const Eigen::VectorXcd& at) {
         Singularities result = singularities_of(source, chart, boundary, corners, at);
-        const bool plain =
-            options.chart_metric && !elongated && (result.empty() || result.only_corners()) && corners_are_noise();
+        const bool plain = (options.chart_metric || options.slack > 0) && !elongated &&
+                           (result.empty() || result.only_corners()) && corners_are_noise();
         held_alone = held_vertices(source, chart, boundary, at);
         problem.set_chart(std::move(chart));
         if (plain && problem.take_chart_metric()) result = {};

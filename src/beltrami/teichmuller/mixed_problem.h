@@ -44,6 +44,7 @@ class MixedProblem {
     void record(const SlidingBoundary& boundary, MixedExtremalMap& result) const;
 
     const ExtremalOptions& options_;
+    int outer_loop_;
     PreparedProblem prepared_;
     const Surface& source_;
     MixedBoundary boundary_;

@@ -111,7 +111,9 @@ TEST(BranchedCover, SignsChangeAroundBranchPointsOnly) {
             return std::find(branches.begin(), branches.end(), v) != branches.end();
         };
         const int at_a = sign_at(left, a) * sign_at(right, a), at_b = sign_at(left, b) * sign_at(right, b);
-        if (!branches_at(a) && !branches_at(b)) EXPECT_EQ(at_a, at_b);
+        if (!branches_at(a) && !branches_at(b)) {
+            EXPECT_EQ(at_a, at_b);
+        }
         // Read at the end that does not branch.
         const int change = branches_at(a) ? at_b : at_a;
         product[a] *= change;

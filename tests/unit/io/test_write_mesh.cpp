@@ -151,7 +151,7 @@ TEST(WriteMesh, PlyKeepsOtherProperties) {
         "z\nproperty uchar red\nproperty float heat\nproperty list uchar short tags\nelement face 1\nproperty list "
         "uchar "
         "int vertex_indices\nproperty int label\nproperty double K\nend_header\n0 0 0 7 .5 0\n1 0 0 8 .25 2 -3 4\n"
-        "0 1 0 9 .1 1 5\n3 0 1 2 -6 77\n";
+        "0 1 0 9 .125 1 5\n3 0 1 2 -6 77\n";
     const LoadedMesh loaded = read_ply(text, "t.ply");
     Eigen::VectorXd K(1);
     K << 2;

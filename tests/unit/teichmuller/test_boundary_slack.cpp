@@ -135,7 +135,9 @@ TEST(BoundarySlack, ExtremalMapSaysWhatNoiseCosts) {
         clean.pin(rim[i], on_circle(t + 0.15 * std::sin(t)));
         noisy.pin(rim[i], on_circle(moved + 0.15 * std::sin(moved)));
     }
-    const ExtremalMap smooth = extremal_map(source, clean), rough = extremal_map(source, noisy);
+    ExtremalOptions in_plane;
+    in_plane.chart_metric = true;
+    const ExtremalMap smooth = extremal_map(source, clean, in_plane), rough = extremal_map(source, noisy, in_plane);
     EXPECT_FALSE(smooth.noise);
     ASSERT_TRUE(rough.noise);
     EXPECT_LT(rough.noise->energy_ratio, 0.6);
