@@ -15,7 +15,7 @@ step(${WORK}/prefix/bin/beltrami --version)
 file(GLOB_RECURSE package ${WORK}/prefix/*/beltrami.pc)
 cmake_path(GET package PARENT_PATH folder)
 set(ENV{PKG_CONFIG_PATH} ${folder})
-execute_process(COMMAND pkg-config --define-variable=prefix=${WORK}/prefix --static --cflags --libs beltrami
+execute_process(COMMAND pkg-config --static --cflags --libs beltrami
     OUTPUT_VARIABLE flags COMMAND_ERROR_IS_FATAL ANY OUTPUT_STRIP_TRAILING_WHITESPACE)
 separate_arguments(flags UNIX_COMMAND "${flags}")
 step(c++ -std=c++20 ${SOURCE}/main.cpp ${flags} -o ${WORK}/by_pkg_config)
