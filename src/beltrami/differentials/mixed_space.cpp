@@ -156,8 +156,10 @@ void MixedSpace::orthonormalise(const std::vector<Function>& more) {
     const Eigen::Index added = given.cols(), old = orthonormal_.cols();
     functions_.insert(functions_.end(), more.begin(), more.end());
     Eigen::MatrixXcd Q(given.rows(), old + added), T = Eigen::MatrixXcd::Zero(old_functions + added, old + added);
-    Q.leftCols(old) = orthonormal_;
-    T.topLeftCorner(old_functions, old) = triangle_;
+    if (old > 0) {
+        Q.leftCols(old) = orthonormal_;
+        T.topLeftCorner(old_functions, old) = triangle_;
+    }
     lengths_.conservativeResize(old_functions + added);
     Eigen::Index size = old;
     for (Eigen::Index j = 0; j < added; ++j) {
