@@ -16,6 +16,7 @@
 #include <beltrami/starts/sliding_loops.h>
 #include <beltrami/starts/sliding_start.h>
 #include <beltrami/teichmuller/problem.h>
+#include <beltrami/teichmuller/sliding_record.h>
 #include <beltrami/unfold/fold_free.h>
 
 namespace beltrami {
@@ -36,13 +37,6 @@ constexpr int kFirstDegree = 8, kFirstMixedDegree = 12, kLargestMixedDegree = 24
 /// Around a hole with prescribed values, edges for each power of r/(z − c).
 constexpr int kEdgesPerPower = 6;
 constexpr int kLeastPower = 3, kMostPower = 16;
-
-/// Rotation of the c-step's grid, tied to the source's shape.
-double phase_of(const CircleDomainChart& domain, const Surface& source) {
-    for (const RoundHole& hole : domain.holes)
-        if (std::abs(hole.centre) > 1e-3) return std::arg(hole.centre);
-    return std::arg(domain.chart.vertices[source.topology.boundary_loops[domain.outer_loop()][0]]);
-}
 
 /// Boundary vertices that are held, of all loops.
 std::vector<int> held_on_boundary(const Surface& source, const MixedBoundary& boundary) {
@@ -66,21 +60,6 @@ bool all_slides(const MixedBoundary& boundary) {
         for (std::size_t i = 0; i < held.size(); ++i)
             if (held[i] && held[(i + 1) % held.size()]) return false;
     return true;
-}
-
-void record_bounds(const ReichStrebel& integrals, double k, MixedExtremalMap& result) {
-    result.K_max = largest_dilatation(result.distortion);
-    result.K = std::min(integrals.valid ? integrals.estimate : dilatation(k), result.K_max);
-    result.k = (result.K - 1) / (result.K + 1);
-    if (integrals.valid) {
-        result.K_lower = std::max(1.0, integrals.lower);
-        result.K_upper = integrals.upper;
-        // φ is real along circles, the mesh ends at their chords: an error of second order that no quadrature sees.
-        result.bounds.push_back({"reich_strebel", result.K_lower, Bound::Of::extremal, false});
-        result.bounds.push_back({"reich_strebel_estimate", result.K, Bound::Of::extremal, false});
-        result.bounds.push_back({"reich_strebel_upper", result.K_upper, Bound::Of::extremal, false});
-    }
-    if (std::isfinite(result.K_max)) result.bounds.push_back({"attained", result.K_max, Bound::Of::extremal, true});
 }
 
 }  // namespace
@@ -243,8 +222,8 @@ void MixedProblem::iterate(MixedDifferentials phi, SlidingBoundary& boundary, Sl
         result.dimension_gap = laurent->fit().next / std::max(laurent->fit().residual, 1e-16);
         result.reality = laurent->fit().residual;
     }
-    record_bounds(reich_strebel(source_, phi.chart, *state.space, last.direction, result.distortion.mu), last.k,
-                  result);
+    record_sliding_bounds(reich_strebel(source_, phi.chart, *state.space, last.direction, result.distortion.mu), last.k,
+                          result);
 }
 
 /// Measures the map, without folds where these can be opened.

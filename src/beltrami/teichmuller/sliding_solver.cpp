@@ -11,6 +11,7 @@
 #include <beltrami/starts/sliding_loops.h>
 #include <beltrami/teichmuller/coarse_sliding_start.h>
 #include <beltrami/teichmuller/onto_annulus.h>
+#include <beltrami/teichmuller/sliding_record.h>
 #include <beltrami/unfold/fold_free.h>
 
 namespace beltrami {
@@ -30,13 +31,6 @@ constexpr int kConformalSteps = 100;
 /// Points of the c-step on large meshes, and what sharper differences of φ ask for.
 constexpr int kClusters = 1500;
 
-/// Rotation of the c-step's grid, tied to the source's shape.
-double phase_of(const CircleDomainChart& domain, const Surface& source) {
-    for (const RoundHole& hole : domain.holes)
-        if (std::abs(hole.centre) > 1e-3) return std::arg(hole.centre);
-    return std::arg(domain.chart.vertices[source.topology.boundary_loops[domain.outer_loop()][0]]);
-}
-
 /// Marked vertices in the order of the loops.
 std::vector<int> marked_vertices(const Surface& source, const std::vector<Mark>& marks) {
     std::vector<int> result;
@@ -45,22 +39,6 @@ std::vector<int> marked_vertices(const Surface& source, const std::vector<Mark>&
             if (std::any_of(marks.begin(), marks.end(), [&](const Mark& mark) { return mark.vertex == v; }))
                 result.push_back(v);
     return result;
-}
-
-void record_bounds(const ReichStrebel& integrals, double k, ExtremalMap& result) {
-    result.K_max = largest_dilatation(result.distortion);
-    result.K = std::min(integrals.valid ? integrals.estimate : dilatation(k), result.K_max);
-    result.k = (result.K - 1) / (result.K + 1);
-    if (integrals.valid) {
-        result.K_lower = std::max(1.0, integrals.lower);
-        result.K_upper = integrals.upper;
-        // φ is real along circles, the mesh ends at their chords, and μ is not tangential to them: an error of
-        // second order that no quadrature sees.
-        result.bounds.push_back({"reich_strebel", result.K_lower, Bound::Of::extremal, false});
-        result.bounds.push_back({"reich_strebel_estimate", result.K, Bound::Of::extremal, false});
-        result.bounds.push_back({"reich_strebel_upper", result.K_upper, Bound::Of::extremal, false});
-    }
-    if (std::isfinite(result.K_max)) result.bounds.push_back({"attained", result.K_max, Bound::Of::extremal, true});
 }
 
 }  // namespace
@@ -208,8 +186,8 @@ void SlidingSolver::settle(ExtremalMap& result) {
     }
     last = coefficient_step_->solve(result.distortion.mu, last.direction);
     result.phi = last.phi;
-    record_bounds(reich_strebel(source_, phi_.chart, *state_.space, last.direction, result.distortion.mu), last.k,
-                  result);
+    record_sliding_bounds(reich_strebel(source_, phi_.chart, *state_.space, last.direction, result.distortion.mu),
+                          last.k, result);
 }
 
 /// No differential is admissible: the extremal map is conformal.
