@@ -1,8 +1,8 @@
-// Updates a second of ExtremalSolver while a handle, or the whole boundary, is moved.
+// Updates a second of ExtremalSolver while a pin, or the whole boundary, is moved.
 //
 //     bench_interactive [TRIANGLES...]        default: 5000 20000
 //
-// Two drags of 60 steps each: the circle's image turns into three lobes while an inner handle is pulled across, and
+// Two drags of 60 steps each: the circle's image turns into three lobes while a pin inside is pulled across, and
 // the boundary alone. Each update takes up to three iterations from where the solver stands; the last column compares k
 // with that of a solve from nothing for the final position.
 #include <fmt/format.h>
@@ -25,14 +25,14 @@ double now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// Images at time t of the prescribed vertices: the boundary, then perhaps a handle.
-std::vector<Complex> images_at(const Surface& surface, bool with_handle, double t) {
+/// Images at time t of the prescribed vertices: the boundary, then perhaps a pin.
+std::vector<Complex> images_at(const Surface& surface, bool with_pin, double t) {
     std::vector<Complex> images;
     for (const int v : surface.topology.boundary_loops[0]) {
         const double angle = std::atan2(surface.mesh.positions(v, 1), surface.mesh.positions(v, 0));
         images.push_back(std::polar(1 + 0.25 * t * std::cos(3 * angle), angle + 0.3 * t * std::sin(angle)));
     }
-    if (with_handle) images.emplace_back(0.25 * t, 0.15 * t);
+    if (with_pin) images.emplace_back(0.25 * t, 0.15 * t);
     return images;
 }
 
@@ -46,13 +46,13 @@ int main(int argc, char** argv) {
         "| drag | triangles | updates a second | slowest update, ms | flips, all updates | k of the last update | k "
         "from "
         "nothing |\n| --- | --- | --- | --- | --- | --- | --- |\n");
-    for (const bool with_handle : {false, true})
+    for (const bool with_pin : {false, true})
         for (const int size : sizes) {
             const Surface surface(disk(disk_rings_for_triangles(size)));
             BoundaryCondition boundary;
             for (const int v : surface.topology.boundary_loops[0]) boundary.pin(v, 0.0);
-            if (with_handle) boundary.pin(0, 0.0);  // the disk's centre
-            boundary.images = images_at(surface, with_handle, 0.05);
+            if (with_pin) boundary.pin(0, 0.0);  // the disk's centre
+            boundary.images = images_at(surface, with_pin, 0.05);
             ExtremalSolver solver(surface, boundary);
             solver.solve();
             double slowest = 0, k = 0;
@@ -61,16 +61,16 @@ int main(int argc, char** argv) {
             for (int step = 1; step <= kSteps; ++step) {
                 const double before = now();
                 const ExtremalSolver::Update update =
-                    solver.update(images_at(surface, with_handle, 0.05 + 0.95 * step / kSteps), kIterations);
+                    solver.update(images_at(surface, with_pin, 0.05 + 0.95 * step / kSteps), kIterations);
                 slowest = std::max(slowest, now() - before);
                 flips += update.flipped;
                 k = update.k;
             }
             const double seconds = now() - start;
-            boundary.images = images_at(surface, with_handle, 1);
+            boundary.images = images_at(surface, with_pin, 1);
             const ExtremalMap fresh = extremal_map(surface, boundary);
             fmt::print("| {} | {} | {:.0f} | {:.0f} | {} | {:.5f} | {:.5f} |\n",
-                       with_handle ? "boundary and handle" : "boundary", surface.mesh.face_count(), kSteps / seconds,
+                       with_pin ? "boundary and pin" : "boundary", surface.mesh.face_count(), kSteps / seconds,
                        1e3 * slowest, flips, k, fresh.history.back().k);
             std::fflush(stdout);
         }

@@ -30,7 +30,7 @@ void BoundaryOptions::add_to(CLI::App& app) {
         ->delimiter(',')
         ->expected(4)
         ->type_name("a,b,c,d");
-    app.add_option("--start", start_,
+    app.add_option("--first-vertex,--start", start_,
                    "the boundary vertex that goes to angle 0, the first corner or the polygon's first point; default: "
                    "the smallest")
         ->type_name("V");
@@ -134,10 +134,10 @@ void BoundaryOptions::load(const MeshInput& source) {
     if (!spec_.empty()) {
         parse_spec();
     } else if (!corners_.empty() || start_) {
-        throw Error(Cause::bad_option, "--corners and --start say nothing without --boundary");
+        throw Error(Cause::bad_option, "--corners and --first-vertex say nothing without --boundary");
     }
     for (int& corner : corners_) corner = source.number_of(corner, "a corner");
-    if (start_) start_ = source.number_of(*start_, "the start of the boundary");
+    if (start_) start_ = source.number_of(*start_, "the first vertex of the boundary");
     parse_holes();
     if (!pin_file_.empty()) read_pins(source);
 }

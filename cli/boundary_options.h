@@ -12,7 +12,7 @@
 
 namespace beltrami::cli {
 
-/// --boundary, --corners, --start, --speed, --outer, --hole, --pin: what the user prescribes about the boundary.
+/// --boundary, --corners, --first-vertex, --speed, --outer, --hole, --pin: what the user prescribes about the boundary.
 class BoundaryOptions {
   public:
     void add_to(CLI::App& app);

@@ -43,9 +43,10 @@ int exit_code(Cause cause) {
     return 1;
 }
 
-void CommonOptions::add_to(CLI::App& app) {
+void CommonOptions::add_to(CLI::App& app, bool has_map) {
     app.add_option("--json", json, "write the record as JSON to FILE, or to standard output with -")->type_name("FILE");
-    app.add_option("--report", report, "write a self-contained HTML page to FILE")->type_name("FILE.html");
+    if (has_map)
+        app.add_option("--report", report, "write a self-contained HTML page to FILE")->type_name("FILE.html");
     app.add_flag("--quiet", quiet, "print nothing but errors");
     app.add_option_function<int>(
            "--threads", [](int count) { set_thread_count(count); }, "use N threads; the result does not depend on it")

@@ -16,7 +16,8 @@ struct CommonOptions {
     std::string json, report;
     bool quiet = false;
 
-    void add_to(CLI::App& app);
+    /// @param has_map whether there is a map for a page (--report)
+    void add_to(CLI::App& app, bool has_map = true);
     /// check_files() of the inputs and the outputs, --json and --report among these.
     void check_files(const std::vector<NamedFile>& inputs, std::vector<NamedFile> outputs = {}) const;
     /// Whether anything beyond the terminal wants the record.

@@ -32,13 +32,11 @@ class DistanceCommand final : public Command {
         app->add_option("--picture", picture_, "the matrix and the tree of its clusters, as SVG")
             ->type_name("FILE.svg");
         options_.add_to(*app);
-        common_.add_to(*app);
+        common_.add_to(*app, false);
         app->footer(kExitCodes);
     }
 
     int run() override {
-        if (!common_.report.empty())
-            throw Error(Cause::bad_option, "distance has no map to report on", "use --picture");
         std::vector<NamedFile> inputs;
         inputs.reserve(meshes_.size());
         for (const std::string& mesh : meshes_) inputs.push_back({"MESH", mesh});

@@ -60,7 +60,7 @@ class Flatten final : public Command {
             solve.factorizations = flat.factorizations;
             if (!flat.flipped.empty())
                 record.warnings.push_back(counted(flat.flipped.size(), "face comes", "faces come") +
-                                          " out turned over, with edges flipped on the way; the first is face " +
+                                          " out flipped, as edges were flipped on the way; the first is face " +
                                           std::to_string(flat.flipped[0]));
         }
         solve.termination = to_string(Termination::converged);

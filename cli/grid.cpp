@@ -60,7 +60,7 @@ class Grid final : public Command {
                         "sides of an outer rectangle")
             ->check(CLI::IsMember(lines))
             ->capture_default_str();
-        app->add_option("--pattern", pattern_, "checker: cells are coloured like a chess-board's")
+        app->add_option("--pattern", pattern_, "checker: cells are coloured like a checkerboard's")
             ->check(CLI::IsMember({"grid", "checker"}))
             ->capture_default_str();
         app->add_option("--border", border_,
@@ -183,7 +183,7 @@ class Grid final : public Command {
     static void add_warnings(const SurfaceGrid& grid, Record& record) {
         if (const auto& folded = grid.quality.folded; !folded.empty())
             record.warnings.push_back(counted(folded.size(), "face of the grid is", "faces of the grid are") +
-                                      " turned over or not convex on the surface: at a corner of the domain that its "
+                                      " flipped or not convex on the surface: at a corner of the domain that its "
                                       "boundary has not, or where it turns back; the first is face " +
                                       std::to_string(folded[0]));
     }

@@ -22,13 +22,11 @@ class Info final : public Command {
         CLI::App* app = parent.add_subcommand("info", "what a mesh is: size, topology, quality, defects");
         app->add_option("MESH", mesh_, "OBJ, PLY, OFF or STL")->required();
         options_.add_to(*app);
-        common_.add_to(*app);
+        common_.add_to(*app, false);
         app->footer(kExitCodes);
     }
 
     int run() override {
-        if (!common_.report.empty())
-            throw Error(Cause::bad_option, "info has no map to report on", "use map or measure with --report");
         common_.check_files({{"MESH", mesh_}});
         Record& record = record_;
         record.command = "info";

@@ -167,7 +167,7 @@ class Map final : public Command {
         refuse(onto_.given() || slide_.given(), "--onto or --slide");
         refuse(homotopy_.given(), "--turns or --waypoints");
         refuse(metric_.given(), "--metric");
-        refuse(boundary_.names_vertices(), "--corners, --start, --pin or --hole");
+        refuse(boundary_.names_vertices(), "--corners, --first-vertex, --pin or --hole");
         refuse(!compare_.empty(), "--compare");
     }
 

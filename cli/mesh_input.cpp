@@ -86,7 +86,7 @@ void MeshInputOptions::add_to(CLI::App& app) {
     app.add_flag("--orient", orient_, "turn the faces that are oriented against their neighbours");
     app.add_flag("--keep-largest", keep_largest_, "keep only the component with the most faces");
     app.add_flag("--drop-unreferenced", drop_unreferenced_,
-                 "leave out vertices without faces. Options, files and landmarks count the vertices as the file has "
+                 "leave out vertices without faces. Options, files and marks count the vertices as the file has "
                  "them; messages and OUT as they are after this, --keep-largest and --weld");
 }
 

@@ -69,7 +69,7 @@ class Uniformize final : public Command {
         const Distortion d = distortion(source.operators, found.map);
         if (!d.flipped.empty())
             record.warnings.push_back(counted(d.flipped.size(), "face comes", "faces come") +
-                                      " out turned over; the first is face " + std::to_string(d.flipped[0]));
+                                      " out flipped; the first is face " + std::to_string(d.flipped[0]));
         record.map = map_record(d);
         output_.write(source.mesh, found.map, d, input.attributes, input.unit);
         write_page(common_.report, source.mesh, {{"conformal", positions_of(found.map), d.face_abs_mu}}, {}, record,

@@ -6,7 +6,7 @@ std::vector<Solved> Comparison::run(const std::vector<std::string>& methods) {
     const Surface surface(problem.mesh);
     Table table{problem.statement, usual_head("method"), {}};
     Picture flat{name, problem.statement + ".", {}}, views{name + "_texture", "", {}};
-    views.caption = surface.in_plane() ? "The image of a chessboard of the source." : "A chessboard of the plane.";
+    views.caption = surface.in_plane() ? "The image of a checkerboard of the source." : "A checkerboard of the plane.";
     std::vector<std::pair<std::string, std::string>> lines;
     auto edges = problem.highlights;
     for (const bench::FeatureCurve& curve : problem.features) edges.push_back(curve.vertices);

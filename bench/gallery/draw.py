@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Draws the gallery's pictures: draw.py DATA_FOLDER PICTURE_FOLDER. DATA_FOLDER has pictures.json and PLY files.
 
-A picture is a row of panels of one height: "map" (a planar mesh coloured by |mu|), "grid" (the image of a chessboard or
+A picture is a row of panels of one height: "map" (a planar mesh coloured by |mu|), "grid" (the image of a checkerboard or
 of small circles of the source, or these on the source itself), "faces" (the image with the edges of its faces),
-"histogram", "curves", "surface" (a mesh in space with a chessboard or circles of the map's plane, with its edges, or
+"histogram", "curves", "surface" (a mesh in space with a checkerboard or circles of the map's plane, with its edges, or
 coloured by |mu|). Or it is one "svg", an SVG file as chromium shows it."""
 import io
 import json
@@ -27,7 +27,7 @@ FLIPPED = (0.85, 0.1, 0.1, 1.0)
 CHECKER = (0.30, 0.45, 0.69), (0.95, 0.93, 0.86)
 PANEL = 2.9  # inches
 WIDTH = 11.6
-OFFSET = 1e-5  # of chessboards: edges of the mesh often lie on their lines
+OFFSET = 1e-5  # of checkerboards: edges of the mesh often lie on their lines
 DPI = 110
 TYPES = {"char": "i1", "uchar": "u1", "short": "<i2", "ushort": "<u2", "int": "<i4", "uint": "<u4",
          "float": "<f4", "double": "<f8", "int8": "i1", "uint8": "u1", "int32": "<i4", "uint32": "<u4",

@@ -63,7 +63,7 @@ Figure figure_07(Output& output) {
             Picture picture{"figure_07_" + name, problem.statement + ".", {}};
             const std::string data = output.write("figure_07_" + name, surface, solved);
             std::vector<std::pair<std::string, std::string>> lines{{"beltrami", data}};
-            picture.panels.push_back(grid_panel(data, "chessboard of the source", "square", 16));
+            picture.panels.push_back(grid_panel(data, "checkerboard of the source", "square", 16));
             picture.panels.push_back(map_panel(data, "extremal map", shown));
             if (problem.exact) {
                 const Solved exact = solve_with(surface, "exact", [&] { return *problem.exact; });

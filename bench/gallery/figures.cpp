@@ -17,7 +17,7 @@ const Page& prescribed() {
         "the\n"
         "statistics of |μ| over the faces, weighted by area. Iterations: linear solves, Newton steps for the methods "
         "that\n"
-        "are not linear; seconds on a busy machine, bounds included. A chessboard is that of the source on the image "
+        "are not linear; seconds on a busy machine, bounds included. A checkerboard is that of the source on the image "
         "of a\n"
         "planar source, that of the plane on a surface in space. In histograms the last bin holds all that lies "
         "beyond.\n"

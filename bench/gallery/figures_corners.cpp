@@ -64,7 +64,7 @@ Figure corners(Output& output) {
         const double shown = std::min(1.0, std::max(0.3, 1.6 * *solved.k));
         picture.panels.push_back(map_panel(data, "source", shown, "source"));
         picture.panels.push_back(map_panel(data, "image", shown));
-        picture.panels.push_back(grid_panel(data, "chessboard of the source", "square", 16));
+        picture.panels.push_back(grid_panel(data, "checkerboard of the source", "square", 16));
         picture.panels.push_back(histogram_panel({{"extremal", data}}, "|μ|", solved.k, shown));
         figure.pictures.push_back(std::move(picture));
     }

@@ -64,7 +64,7 @@ Figure figure_14(Output& output) {
         "On the left |φ| is small: what the map does there hardly enters k and the bounds, and φ is badly determined. "
         "The "
         "iteration leaves |μ| below k there (\"not evened\", a smooth map); evening out raises it to k, by wrinkles of "
-        "the size of a triangle that the chessboard shows.");
+        "the size of a triangle that the checkerboard shows.");
     return figure;
 }
 

@@ -25,7 +25,7 @@ Figure figure_10(Output& output) {
                  "seconds", "distance from the first map"},
                 {}};
     Picture starts{"figure_10", "The three starts, flipped faces in red.", {}},
-        maps{"figure_10_texture", "A chessboard of the plane under the extremal maps from these starts.", {}};
+        maps{"figure_10_texture", "A checkerboard of the plane under the extremal maps from these starts.", {}};
     std::optional<Eigen::VectorXcd> first;
     std::vector<std::pair<std::string, std::string>> lines;
     // Noisy starts: inner vertices of a map without folds displaced by up to so much; the annulus is .55 wide.
@@ -71,7 +71,7 @@ Figure figure_10(Output& output) {
     figure.remarks.push_back(
         "The starts give the same map as long as their noise is not too wild. From .1, where close to half of all "
         "faces "
-        "are turned over, what comes out is no map, and the iteration begins again from the harmonic start, with a "
+        "are flipped, what comes out is no map, and the iteration begins again from the harmonic start, with a "
         "warning; both runs are counted. The harmonic start needs no option and is the best one.");
     return figure;
 }
@@ -219,7 +219,7 @@ Figure figure_18(Output& output) {
                  "mean abs(μ) on the surface", "std", "iterations"},
                 {}};
     Picture picture{"figure_18", "|μ| in the ARAP metric.", {}},
-        views{"figure_18_texture", "A chessboard of the plane; markers in black.", {}};
+        views{"figure_18_texture", "A checkerboard of the plane; markers in black.", {}};
     std::vector<std::vector<int>> crosses;
     for (std::size_t i = boundary.vertices.size() - 4; i < boundary.vertices.size(); ++i) {
         const int v = boundary.vertices[i];

@@ -84,7 +84,7 @@ class Output {
 /// The image of a map; domain "source": the planar source itself with the colours of the map.
 nlohmann::json map_panel(const std::string& data, const std::string& title, double max_mu = 1,
                          const std::string& domain = "image", double min_mu = 0);
-/// The image of a planar mesh with a chessboard of the source. pattern "polar": sectors and rings of their shape;
+/// The image of a planar mesh with a checkerboard of the source. pattern "polar": sectors and rings of their shape;
 /// "disk": sectors and rings of equal width; "square": so many squares to the larger side of the source.
 /// @param lines chains of vertices to draw
 /// "circles": small circles, so many to the larger side.
@@ -131,7 +131,7 @@ struct Comparison {
     double azimuth = 30, elevation = 30;
     int squares = 20;
     double max_mu = 1;
-    std::string pattern = "polar";  ///< of the chessboard of planar sources
+    std::string pattern = "polar";  ///< of the checkerboard of planar sources
 
     std::vector<Solved> run(const std::vector<std::string>& methods);
 };

@@ -60,7 +60,7 @@ struct OntoExample {
                    const Correspondence& wanted = {}) const;
 };
 
-/// Largest |μ| and its 99th percentile, 1 where faces are turned over, of the maps after some iterations.
+/// Largest |μ| and its 99th percentile, 1 where faces are flipped, of the maps after some iterations.
 struct Energies {
     Curve largest, p99;
     int settled = 0;  ///< iterations after which all had settled; 0: never

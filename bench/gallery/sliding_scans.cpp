@@ -133,7 +133,7 @@ void course(Figure& figure, const Surface& face) {
                                     energies("another pairing", face, {target, far})};
     Picture picture{"sliding_12_course",
                     "alex_3 onto the disk with three holes, from starts on its own mesh: the largest |μ| and its 99th "
-                    "percentile after every iteration (1: faces are turned over).",
+                    "percentile after every iteration (1: faces are flipped).",
                     {}};
     std::vector<Curve> largest, p99;
     for (const Energies& one : all) largest.push_back(one.largest), p99.push_back(one.p99);
@@ -219,7 +219,7 @@ Figure sliding_13(Output& output) {
     if (!path) return {};
     Figure figure{"Example 13: grids",
                   "*The paper:* a face with three holes is mapped to a simple parameter domain; a structured grid and "
-                  "a chessboard there are carried back to the face (Fig. 22)."};
+                  "a checkerboard there are carried back to the face (Fig. 22)."};
     const Surface face(read_mesh(*path).mesh);
     Correspondence wanted;
     wanted.loops = {{0, 0}, {1, 2}, {2, 3}, {3, 1}};
@@ -232,7 +232,7 @@ Figure sliding_13(Output& output) {
                   {"grid", "border", "faces", "whole cells", "trimmed", "left out", "least angle", "largest angle",
                    "mean aspect", "largest aspect", "area ratio", "folded faces"},
                   {}};
-    Picture texture{"sliding_13_texture", "The chessboard of the parameter domain on the face, and |μ|.", {}};
+    Picture texture{"sliding_13_texture", "The checkerboard of the parameter domain on the face, and |μ|.", {}};
     struct Kind {
         std::string name, file;
         PlaneGrid grid;
@@ -269,7 +269,7 @@ Figure sliding_13(Output& output) {
     }
     const std::string data = write(output, "sliding_13_map", face, solved);
     const double shown = 1.6 * solved.all->k;
-    texture.panels.push_back(surface_panel(data, "chessboard", "checker", kAzimuth, kElevation, 30));
+    texture.panels.push_back(surface_panel(data, "checkerboard", "checker", kAzimuth, kElevation, 30));
     texture.panels.push_back(surface_panel(data, "from the side", "checker", kAzimuth + 40, 40, 30));
     texture.panels.push_back(map_panel(data, "|μ|", shown));
     texture.panels.push_back(histogram_panel({{"", data}}, "", solved.all->k, shown));

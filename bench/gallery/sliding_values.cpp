@@ -176,7 +176,7 @@ Figure sliding_04(Output& output) {
                    bad = energies("holes turned", coarse, {target, wanted}, turned);
     Picture picture{"sliding_04_curves",
                     "Angles of boundary points about the centres of their circles; the largest |μ| and its 99th "
-                    "percentile after every iteration (h = .04; 1: faces are turned over), from circles that begin "
+                    "percentile after every iteration (h = .04; 1: faces are flipped), from circles that begin "
                     "evenly and from holes turned by 2, −2 and 1.5 rad.",
                     {}};
     picture.panels.push_back(curves_panel(loops, "boundary correspondence", "angle, source", "angle, image", false));

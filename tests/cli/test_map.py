@@ -47,7 +47,7 @@ class Map(Command):
         v, _, _ = read_obj(source)
         loop = list(range(len(v) - 60, len(v)))
         start = loop[7]
-        self.run_command("map", source, "-o", self.path("out.obj"), "--method", "harmonic", "--boundary", "disk:0.5", "--start", start)
+        self.run_command("map", source, "-o", self.path("out.obj"), "--method", "harmonic", "--boundary", "disk:0.5", "--first-vertex", start)
         _, vt, _ = read_obj(self.path("out.obj"))
         order = loop[7:] + loop[:7]
         lengths = [np.linalg.norm(v[order[(i + 1) % 60]] - v[order[i]]) for i in range(60)]

@@ -98,11 +98,11 @@ class Mistakes(Command):
         out = ["-o", self.path("o.obj")]
         for arguments in (["--boundary", "disc"], ["--boundary", "disk:x"], ["--boundary", "disk:1.5"], ["--boundary", "rectangle:1"],
                           ["--boundary", "rectangle:1,-1"], ["--boundary", "disk", "--corners", "1,2,3,4"], ["--method", "best"],
-                          ["--boundary", "disk", "--threads", "0"], ["--start", "3"]):
+                          ["--boundary", "disk", "--threads", "0"], ["--first-vertex", "3"]):
             self.run_command("map", source, *out, *arguments, code=2)
         (self.folder / "bow.txt").write_text("0 0\n1 1\n1 0\n0 1\n")
         (self.folder / "clockwise.txt").write_text("0 0\n0 1\n1 0\n")
-        for arguments in ([], ["--boundary", "disk", "--start", "0"], ["--boundary", "rectangle:1,1", "--corners", "60,50,40,37"],
+        for arguments in ([], ["--boundary", "disk", "--first-vertex", "0"], ["--boundary", "rectangle:1,1", "--corners", "60,50,40,37"],
                           ["--boundary", f"polygon:{self.path('bow.txt')}"], ["--boundary", f"polygon:{self.path('clockwise.txt')}"]):
             self.run_command("map", source, *out, *arguments, code=5)
         self.assertFalse((self.folder / "o.obj").exists())

@@ -169,7 +169,7 @@ class Mending(Command):
         other = self.record("map", self.path("b.obj"), "-o", self.path("p.obj"), "--boundary", "rectangle:1,1", "--corners", corners(0))
         self.assertEqual(one["map"], other["map"])
         self.assertEqual((self.folder / "o.obj").read_text(), (self.folder / "p.obj").read_text())
-        failed = self.run_command("map", self.path("a.obj"), "-o", self.path("o.obj"), "--boundary", "disk", "--start", "1",
+        failed = self.run_command("map", self.path("a.obj"), "-o", self.path("o.obj"), "--boundary", "disk", "--first-vertex", "1",
                                   "--keep-largest", code=5)
         self.assertIn("vertex 1", failed.stderr)
 
@@ -194,7 +194,7 @@ class Mending(Command):
             # Side by side, not on top of each other.
             self.assertLess(vt[:n, 0].max(), vt[n:, 0].min())
             self.assertEqual(record["map"]["flipped"], 0)
-        self.run_command("map", self.path("a.obj"), *arguments, "--each-component", "--start", "3", code=2)
+        self.run_command("map", self.path("a.obj"), *arguments, "--each-component", "--first-vertex", "3", code=2)
         write_obj(self.path("b.obj"), points, np.vstack([one[1], other[1][6:] + n]))
         failed = self.run_command("map", self.path("b.obj"), *arguments, "--each-component", code=5)
         self.assertIn("component 1", failed.stderr)

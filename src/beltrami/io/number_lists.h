@@ -11,7 +11,7 @@ namespace beltrami {
 
 /// Reads a text file of numbers: one row a line, separated by blanks; # begins a comment; blank lines are passed over.
 /// @param columns how many numbers each row must have
-/// @param what    what a row is, for the error: "a landmark", "a pinned vertex"
+/// @param what    what a row is, for the error: "a mark", "a pinned vertex"
 /// @throw Error unreadable with file and line
 std::vector<std::vector<double>> read_rows(const std::filesystem::path& path, int columns, const std::string& what);
 
@@ -28,7 +28,7 @@ struct NumberRow {
 std::vector<NumberRow> read_number_rows(const std::filesystem::path& path, int least, int most,
                                         const std::string& what);
 
-/// Rows that begin with indices, as lists of pins, landmarks and corners do.
+/// Rows that begin with indices, as lists of pins, marks and corners do.
 struct IndexedRows {
     Eigen::Matrix<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> indices;  ///< #rows × index_columns
     Positions values;                                                             ///< #rows × value_columns

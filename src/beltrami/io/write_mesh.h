@@ -20,7 +20,7 @@ struct Column {
     Eigen::VectorXd values;  ///< #F or #V
 };
 
-/// Two colours for the faces, as of a chess-board: materials called light and dark in OBJ (there is no file of
+/// Two colours for the faces, as of a checkerboard: materials called light and dark in OBJ (there is no file of
 /// materials), RGB in PLY and OFF. One a face, or none at all.
 enum class Shade : unsigned char { light, dark };
 

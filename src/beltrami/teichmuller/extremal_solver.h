@@ -9,7 +9,7 @@ namespace beltrami {
 class PiecewiseSolver;
 class SlidingSolver;
 
-/// The extremal map of one source for boundary values that change: handles are dragged, the boundary is moved, and the
+/// The extremal map of one source for boundary values that change: pins are dragged, the boundary is moved, and the
 /// map follows. The system's analysis, the chart and the space of differentials are kept; each new solve starts from
 /// the last φ, k and factorisation.
 ///
