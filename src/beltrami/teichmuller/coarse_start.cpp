@@ -6,6 +6,7 @@
 
 #include <beltrami/charts/round_disk.h>
 #include <beltrami/generate/round_domains.h>
+#include <beltrami/teichmuller/hamilton_options.h>
 #include <beltrami/teichmuller/problem.h>
 
 namespace beltrami {

@@ -14,7 +14,7 @@
 #include <beltrami/solve/map_result.h>
 #include <beltrami/starts/sliding_loops.h>
 #include <beltrami/teichmuller/extremal_options.h>
-#include <beltrami/teichmuller/hamilton.h>
+#include <beltrami/teichmuller/iteration.h>
 
 namespace beltrami {
 

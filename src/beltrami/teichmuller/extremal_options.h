@@ -7,7 +7,6 @@
 
 #include <beltrami/base/complex.h>
 #include <beltrami/base/iteration_options.h>
-#include <beltrami/teichmuller/hamilton.h>
 
 namespace beltrami {
 
@@ -67,10 +66,5 @@ struct ExtremalOptions : IterationOptions {
 };
 
 const char* to_string(ExtremalOptions::Space);
-
-/// What the options say about the iteration where boundary values are prescribed.
-HamiltonIteration::Options iteration_options(const ExtremalOptions& options);
-/// The same where boundaries slide: the space of differentials does not grow.
-HamiltonIteration::Options sliding_iteration_options(const ExtremalOptions& options);
 
 }  // namespace beltrami

@@ -17,6 +17,7 @@
 #include <beltrami/teichmuller/boundary_slack.h>
 #include <beltrami/teichmuller/coarse_start.h>
 #include <beltrami/teichmuller/elongation.h>
+#include <beltrami/teichmuller/hamilton_options.h>
 #include <beltrami/teichmuller/piecewise_solver.h>
 #include <beltrami/teichmuller/prepared_problem.h>
 #include <beltrami/teichmuller/problem.h>

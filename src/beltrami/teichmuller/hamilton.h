@@ -6,6 +6,7 @@
 #include <beltrami/base/iteration_options.h>
 #include <beltrami/coefficient/coefficient_step.h>
 #include <beltrami/solve/map_step.h>
+#include <beltrami/teichmuller/iteration.h>
 
 namespace beltrami {
 
@@ -14,12 +15,6 @@ struct HamiltonState {
     std::unique_ptr<DifferentialSpace> space;
     Eigen::VectorXcd direction;  ///< coefficients of φ, of length 1
     double k = 0;
-};
-
-struct Iteration {
-    double k;       ///< of the c-step
-    double change;  ///< of the direction of φ since the last iteration
-    int functions;  ///< dimension of the space of differentials
 };
 
 /// Hamilton's iteration, the one loop for every topology: the c-step finds φ and k of a map, the f-step the map with

@@ -15,6 +15,7 @@
 #include <beltrami/differentials/polynomial_space.h>
 #include <beltrami/starts/sliding_loops.h>
 #include <beltrami/starts/sliding_start.h>
+#include <beltrami/teichmuller/hamilton_options.h>
 #include <beltrami/teichmuller/problem.h>
 #include <beltrami/teichmuller/sliding_record.h>
 #include <beltrami/unfold/fold_free.h>

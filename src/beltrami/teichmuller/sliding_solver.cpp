@@ -10,6 +10,7 @@
 #include <beltrami/solve/dirichlet_solver.h>
 #include <beltrami/starts/sliding_loops.h>
 #include <beltrami/teichmuller/coarse_sliding_start.h>
+#include <beltrami/teichmuller/hamilton_options.h>
 #include <beltrami/teichmuller/onto_annulus.h>
 #include <beltrami/teichmuller/sliding_record.h>
 #include <beltrami/unfold/fold_free.h>

@@ -1,0 +1,32 @@
+#include <beltrami/teichmuller/hamilton_options.h>
+
+namespace beltrami {
+
+namespace {
+
+constexpr double kTolerance = 1e-8;
+/// Where boundaries slide the error of the mesh is far larger; k, of second order in the direction of φ, settles to
+/// this part of it.
+constexpr double kSlidingTolerance = 1e-6, kToleranceOfK = 0.01;
+
+}  // namespace
+
+HamiltonIteration::Options iteration_options(const ExtremalOptions& options) {
+    HamiltonIteration::Options result;
+    result.tolerance = result.k_tolerance = options.tolerance > 0 ? options.tolerance : kTolerance;
+    result.max_iterations = options.max_iterations;
+    result.growth = options.growth;
+    result.anderson_window = options.anderson_window;
+    result.progress = options.progress;
+    return result;
+}
+
+HamiltonIteration::Options sliding_iteration_options(const ExtremalOptions& options) {
+    HamiltonIteration::Options result = iteration_options(options);
+    if (!(options.tolerance > 0)) result.tolerance = kSlidingTolerance;
+    result.k_tolerance = kToleranceOfK * result.tolerance;
+    result.grow_first = result.grow_last = false;
+    return result;
+}
+
+}  // namespace beltrami

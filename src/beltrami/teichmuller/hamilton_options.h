@@ -1,0 +1,13 @@
+#pragma once
+
+#include <beltrami/teichmuller/extremal_options.h>
+#include <beltrami/teichmuller/hamilton.h>
+
+namespace beltrami {
+
+/// What the options say about the iteration where boundary values are prescribed.
+HamiltonIteration::Options iteration_options(const ExtremalOptions& options);
+/// The same where boundaries slide: the space of differentials does not grow.
+HamiltonIteration::Options sliding_iteration_options(const ExtremalOptions& options);
+
+}  // namespace beltrami

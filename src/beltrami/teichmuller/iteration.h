@@ -1,0 +1,12 @@
+#pragma once
+
+namespace beltrami {
+
+/// One iteration in the history of an extremal map.
+struct Iteration {
+    double k;       ///< of the c-step
+    double change;  ///< of the direction of φ since the last iteration
+    int functions;  ///< dimension of the space of differentials
+};
+
+}  // namespace beltrami
