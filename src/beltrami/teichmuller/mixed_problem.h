@@ -1,5 +1,6 @@
 #pragma once
 
+#include <beltrami/differentials/singularities.h>
 #include <beltrami/solve/sliding_map_step.h>
 #include <beltrami/teichmuller/mixed_start.h>
 #include <beltrami/teichmuller/prepared_problem.h>
