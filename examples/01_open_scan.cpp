@@ -1,12 +1,8 @@
 // Opens a closed scan by a plane y = height and refines it once: what stays is the part above, a disk.
 //
 //     open_scan CLOSED.obj HEIGHT OUT.obj
-#include <beltrami/base/error.h>
-#include <beltrami/io/read_mesh.h>
-#include <beltrami/io/write_mesh.h>
-#include <beltrami/mesh/cut.h>
-#include <beltrami/mesh/subdivide.h>
-#include <beltrami/mesh/topology.h>
+#include <beltrami/io.h>
+#include <beltrami/mesh.h>
 
 #include <cstdio>
 #include <string>

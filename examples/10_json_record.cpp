@@ -1,6 +1,5 @@
 // The record that the command writes with --json, from a program.
 #include <beltrami/beltrami.h>
-#include <beltrami/report/record.h>
 
 #include <cstdio>
 

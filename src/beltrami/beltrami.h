@@ -7,7 +7,6 @@
 #include <beltrami/applications/reached_corners.h>
 #include <beltrami/base/error.h>
 #include <beltrami/baselines/baseline.h>
-#include <beltrami/baselines/t_map_scheme.h>
 #include <beltrami/certificate/certificate.h>
 #include <beltrami/certificate/proved_bounds.h>
 #include <beltrami/certificate/verified_bracket.h>
@@ -22,6 +21,7 @@
 #include <beltrami/constraints/boundary_corners.h>
 #include <beltrami/constraints/boundary_feasibility.h>
 #include <beltrami/constraints/prescribed_split.h>
+#include <beltrami/differentials/quadratic_differential.h>
 #include <beltrami/evening/even_dilatation.h>
 #include <beltrami/flow/beltrami_flow.h>
 #include <beltrami/generate/double_torus.h>
@@ -41,6 +41,7 @@
 #include <beltrami/mesh/diagnosis.h>
 #include <beltrami/mesh/mesh.h>
 #include <beltrami/mesh/planar.h>
+#include <beltrami/mesh/repair.h>
 #include <beltrami/mesh/subdivide.h>
 #include <beltrami/mesh/submesh.h>
 #include <beltrami/mesh/texture_map.h>
@@ -53,6 +54,8 @@
 #include <beltrami/operators/surface.h>
 #include <beltrami/plane/disk_moebius.h>
 #include <beltrami/plane/target_curve.h>
+#include <beltrami/report/page.h>
+#include <beltrami/report/record.h>
 #include <beltrami/solve/beltrami_solver.h>
 #include <beltrami/solve/composition.h>
 #include <beltrami/solve/quasiconformal_map.h>

@@ -11,6 +11,16 @@ step(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -G Ninja -DCMAKE_PREFIX_PATH
 step(${CMAKE_COMMAND} --build ${WORK}/build)
 step(${WORK}/build/consumer)
 step(${WORK}/prefix/bin/beltrami --version)
+# The rooms' headers in an order that nobody uses.
+file(GLOB headers RELATIVE ${WORK}/prefix/include ${WORK}/prefix/include/beltrami/*.h)
+list(LENGTH headers count)
+if(count LESS 15 OR count GREATER 30)
+    message(FATAL_ERROR "${count} headers are installed")
+endif()
+list(REVERSE headers)
+list(TRANSFORM headers REPLACE "(.+)" "#include <\\1>\n")
+list(JOIN headers "" text)
+file(WRITE ${WORK}/headers.cpp "${text}int main() { return 0; }\n")
 # The same by pkg-config, from anywhere.
 file(GLOB_RECURSE package ${WORK}/prefix/*/beltrami.pc)
 cmake_path(GET package PARENT_PATH folder)
@@ -20,3 +30,4 @@ execute_process(COMMAND pkg-config --static --cflags --libs beltrami
 separate_arguments(flags UNIX_COMMAND "${flags}")
 step(c++ -std=c++20 ${SOURCE}/main.cpp ${flags} -o ${WORK}/by_pkg_config)
 step(${WORK}/by_pkg_config)
+step(c++ -std=c++20 -fsyntax-only ${WORK}/headers.cpp ${flags})

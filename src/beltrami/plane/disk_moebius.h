@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+
 #include <beltrami/plane/circle_domain.h>
 
 namespace beltrami {
