@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
+#include <beltrami/base/error.h>
 #include <beltrami/certificate/refined_problem.h>
 #include <beltrami/charts/averaged_coefficient.h>
 #include <beltrami/coefficient/differential_quadrature.h>
+#include <beltrami/operators/distortion.h>
 
 namespace beltrami {
 
@@ -56,6 +60,21 @@ ReichStrebel reich_strebel(const Surface& source, const Chart& chart, const Diff
     return reich_strebel_of(total, norm, pairing, unresolved);
 }
 
+ReichStrebel reich_strebel(const Surface& source, const QuadraticDifferential& phi, const Eigen::VectorXcd& mu) {
+    const Eigen::Index samples = source.operators.sample_count();
+    const Eigen::MatrixXcd* table = phi.space ? phi.space->tabulated() : nullptr;
+    for (const auto& [name, count] : {std::pair("μ", mu.size()), std::pair("φ", table ? table->rows() : samples)})
+        if (count != samples)
+            throw Error(Cause::bad_option, std::string(name) + " has " + std::to_string(count) + " values for " +
+                                               std::to_string(samples) + " samples");
+    if (phi.zero()) return (mu.array().abs2() < 1).all() ? reich_strebel_of(0, 0, 0, 0) : ReichStrebel();
+    return reich_strebel(source, *phi.chart, *phi.space, phi.coefficients, mu);
+}
+
+ReichStrebel reich_strebel(const Surface& source, const QuadraticDifferential& phi, const MapDerivatives& map) {
+    return reich_strebel(source, phi, beltrami_coefficient(map));
+}
+
 ReichStrebel averaged_estimate(const Surface& source, const Chart& chart, const Eigen::VectorXcd& phi,
                                const Eigen::VectorXcd& map) {
     const Eigen::VectorXcd mu = averaged_coefficient(source, chart, phi, map);
@@ -74,6 +93,10 @@ ReichStrebel averaged_estimate(const Surface& source, const Chart& chart, const 
 
 bool proves(const Surface& source, const Chart& chart) {
     return chart.exact && chart.excluded_faces == 0 && all_triangles(source.mesh);
+}
+
+bool proves(const Surface& source, const QuadraticDifferential& phi) {
+    return phi.zero() || (!phi.tabulated() && proves(source, *phi.chart));
 }
 
 double mesh_harmonic_bound(const Operators& source, const Eigen::VectorXcd& harmonic) {

@@ -2,7 +2,8 @@
 
 #include <string>
 
-#include <beltrami/differentials/differential_space.h>
+#include <beltrami/differentials/quadratic_differential.h>
+#include <beltrami/operators/map_derivatives.h>
 
 namespace beltrami {
 
@@ -38,10 +39,23 @@ struct ReichStrebel {
 /// @param unresolved part of ∫|φ| of which the quadrature is not sure
 ReichStrebel reich_strebel_of(double total, double norm, double pairing, double unresolved);
 
-/// Evaluates the Reich-Strebel integrals for the combination of @p space with the given coefficients, by adaptive
-/// quadrature (differential_quadrature.h), or at one point a sample for a tabulated space; μ is constant on a sample,
-/// which has its quarter of a quad. Samples that the chart excludes take no part.
-/// @param mu #S coefficients of the map
+/// The Reich-Strebel integrals of any map and any φ, by adaptive quadrature (differential_quadrature.h), or at one
+/// point a sample where φ is tabulated; μ is constant on a sample, which has its quarter of a quad. Samples that φ's
+/// chart excludes take no part. φ may have any scale and zero() says K ≥ 1; 1/I⁻ is largest where μ = k conj(φ)/|φ|.
+///
+/// `lower` is a bound of K* in the class of the map, up to floating point and quadrature, where all of this holds:
+/// - φ is admissible: integrable, with simple poles where images are prescribed inside; where the boundary slides, φ τ²
+///   is real along it, and has simple poles at marks only;
+/// - φ is holomorphic on the very mesh: proves(source, phi), as for φ(z) of one's own on a planar mesh of triangles;
+/// - `resolved` is set, which never happens where φ is tabulated.
+/// Else it is an estimate, whose error falls with the edges. `estimate` is one of K* for the pair that solves the
+/// problem, and for others nothing. Reich & Strebel 1974, in Gardiner & Lakic: Quasiconformal Teichmüller Theory.
+/// @param mu #S coefficients of the map in the samples' frames, |μ| < 1 (else not valid)
+/// @throw Error bad_option if μ or a tabulated φ does not have #S values
+ReichStrebel reich_strebel(const Surface& source, const QuadraticDifferential& phi, const Eigen::VectorXcd& mu);
+ReichStrebel reich_strebel(const Surface& source, const QuadraticDifferential& phi, const MapDerivatives& map);
+
+/// The same for a combination of a space that is written down in a chart.
 ReichStrebel reich_strebel(const Surface& source, const Chart& chart, const DifferentialSpace& space,
                            const Eigen::VectorXcd& coefficients, const Eigen::VectorXcd& mu);
 
@@ -56,6 +70,7 @@ ReichStrebel averaged_estimate(const Surface& source, const Chart& chart, const 
 /// Whether φ of this chart make Reich-Strebel integrals of a piecewise linear map a proof (up to floating point and
 /// quadrature): the chart is holomorphic, and all faces are triangles. On quads μ is taken at the Gauss points only.
 bool proves(const Surface& source, const Chart& chart);
+bool proves(const Surface& source, const QuadraticDifferential& phi);
 
 /// Every piecewise linear map of this mesh with these boundary values has K ≥ c + √(c²−1), with c the Dirichlet energy
 /// of the harmonic map over the area of the image, normalised to 1 for a conformal map.

@@ -70,6 +70,12 @@ ChartMetric::ChartMetric(const Surface& source, const Chart& chart)
     }
 }
 
+Chart ChartMetric::chart_on_surface() const {
+    Chart chart = chart_;
+    chart.derivatives = derivatives_;
+    return chart;
+}
+
 Eigen::VectorXcd ChartMetric::coefficient_on_surface(const Eigen::VectorXcd& nu) const {
     Eigen::VectorXcd result(nu.size());
     parallel_for(0, static_cast<int>(nu.size()), [&](int first, int last) {

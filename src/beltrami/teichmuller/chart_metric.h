@@ -24,6 +24,8 @@ class ChartMetric {
     const Surface& plane() const { return plane_; }
     /// The chart of plane(): the identity. Not marked as exact, for what it proves it proves of the plane.
     const Chart& chart() const { return chart_; }
+    /// The same with the derivatives of the surface's chart: φ of plane() written down on the surface.
+    Chart chart_on_surface() const;
     /// Mean |μ| of the chart on the surface, by area.
     double chart_mean() const { return chart_mean_; }
 

@@ -9,6 +9,7 @@
 #include <beltrami/constraints/boundary_corners.h>
 #include <beltrami/constraints/constraints.h>
 #include <beltrami/constraints/prescribed_split.h>
+#include <beltrami/differentials/quadratic_differential.h>
 #include <beltrami/homotopy/homotopy.h>
 #include <beltrami/plane/disk_moebius.h>
 #include <beltrami/solve/map_result.h>
@@ -54,7 +55,13 @@ struct NoiseCost {
 ///
 /// Where edges had to be split, #V, #F and #S below are those of the split mesh.
 struct ExtremalMap : MapResult {
-    Eigen::VectorXcd phi;  ///< #S quadratic differential in the samples' frames; 0 where the chart excludes the sample
+    /// φ of the last c-step, known up to a positive factor; zero() where none is admissible and the map is conformal.
+    /// Where pinned curves cut the surface, that of every piece, with a factor of its own, is tabulated over the whole
+    /// (differential_of(values)).
+    QuadraticDifferential differential;
+    /// #S its values at the samples, in their frames, as the c-step had them: on large meshes interpolated, next to
+    /// curves means over the sample; 0 where the chart excludes the sample.
+    Eigen::VectorXcd phi;
     Eigen::VectorXcd
         harmonic;            ///< #V the harmonic map with the prescribed boundary values; empty where boundaries slide
     Eigen::VectorXcd start;  ///< #V the map from which the iteration began; empty where it began from φ

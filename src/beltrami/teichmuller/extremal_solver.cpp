@@ -565,6 +565,7 @@ ExtremalMap ExtremalSolver::Implementation::record() const {
                                 "the mesh is too coarse to hold them: refine it, or ask for fewer", {hole.loop});
     }
     result.distortion = distortion(operators, map);
+    result.differential = problem.differential(state.space, step.direction);
     result.phi = problem.differential_on_source(step.phi);
     for (std::size_t i = 0; i < boundary.vertices.size(); ++i)
         result.boundary_residual =

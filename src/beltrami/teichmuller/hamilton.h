@@ -12,7 +12,7 @@ namespace beltrami {
 
 /// Where the iteration stands: a space of differentials, φ in it, and k. No space: nothing is known yet.
 struct HamiltonState {
-    std::unique_ptr<DifferentialSpace> space;
+    std::shared_ptr<const DifferentialSpace> space;
     Eigen::VectorXcd direction;  ///< coefficients of φ, of length 1
     double k = 0;
 };

@@ -149,6 +149,21 @@ MixedProblem::MixedProblem(const Surface& source, const MixedConditions& conditi
       boundary_(mixed_boundary(source_, conditions)),
       domain_(circle_domain_chart(source_, outer_loop_)) {}
 
+/// Vertices at which φ may have simple poles. (Where the condition changes along a loop it has a branch point.)
+std::vector<int> MixedProblem::poles() const {
+    std::vector<int> result = pins_inside(source_, boundary_);
+    for (const BoundaryCondition::Line& line : boundary_.prescribed.lines) result.push_back(line.vertex);
+    for (std::size_t l = 0; l < boundary_.held.size(); ++l) {
+        const std::vector<char>& held = boundary_.held[l];
+        const std::size_t n = held.size();
+        for (std::size_t i = 0; i < n; ++i)
+            if (held[i] && !held[(i + 1) % n] && !held[(i + n - 1) % n])
+                result.push_back(source_.topology.boundary_loops[l][i]);
+    }
+    std::sort(result.begin(), result.end());
+    return result;
+}
+
 MixedStart MixedProblem::start() const {
     MixedStart result = mixed_start(source_, domain_, boundary_);
     if (!all_slides(boundary_)) return result;
@@ -211,6 +226,7 @@ void MixedProblem::iterate(MixedDifferentials phi, SlidingBoundary& boundary, Sl
     remove_folds(boundary, nu, result);
     last = coefficient_step.solve(result.distortion.mu, last.direction);
     result.phi = last.phi;
+    result.differential = {state.space, std::make_shared<Chart>(phi.chart), last.direction, poles(), {}};
     result.dimension = state.space->size();
     result.expected_dimension = phi.expected_dimension.value_or(result.dimension);
     if (phi.expected_dimension && result.dimension != *phi.expected_dimension)
@@ -223,8 +239,7 @@ void MixedProblem::iterate(MixedDifferentials phi, SlidingBoundary& boundary, Sl
         result.dimension_gap = laurent->fit().next / std::max(laurent->fit().residual, 1e-16);
         result.reality = laurent->fit().residual;
     }
-    record_sliding_bounds(reich_strebel(source_, phi.chart, *state.space, last.direction, result.distortion.mu), last.k,
-                          result);
+    record_sliding_bounds(reich_strebel(source_, result.differential, result.distortion.mu), last.k, result);
 }
 
 /// Measures the map, without folds where these can be opened.

@@ -38,6 +38,7 @@ class MixedProblem {
                                    const ExtremalOptions& options);
 
     MixedStart start() const;
+    std::vector<int> poles() const;
     void iterate(MixedDifferentials phi, SlidingBoundary& boundary, SlidingMapStep& step,
                  MixedExtremalMap& result) const;
     void settle_conformal(SlidingMapStep& step, MixedExtremalMap& result) const;

@@ -79,6 +79,7 @@ std::optional<ExtremalMap> crowded_annulus_onto_ring(const Surface& source, cons
         along += source.operators.weights[s] * std::real(result.distortion.mu[s] * result.phi[s]);
     }
     if (along < 0) result.phi = -result.phi;
+    result.differential = differential_of(source, result.phi);
     const double least = stretch / (kTwoPi * potentials.v_energy), most = stretch * potentials.u_energy / kTwoPi;
     result.K_lower = std::max({1.0, least, 1 / most});
     result.K_upper = std::max(most, 1 / least);

@@ -140,6 +140,7 @@ void PiecewiseSolver::merge(std::vector<ExtremalMap>& parts, ExtremalMap& whole)
             whole.sharpest->position = static_cast<int>(at - loop.begin());
         }
     }
+    whole.differential = differential_of_pieces(parts, whole.phi);
     whole.corners = find_corners(source_, boundary_);
     whole.history = std::move(parts[decisive].history);
     whole.distortion = distortion(operators, whole.map);
@@ -151,6 +152,26 @@ void PiecewiseSolver::merge(std::vector<ExtremalMap>& parts, ExtremalMap& whole)
     merge_bounds(parts, whole);
     if (whole.termination == Termination::converged && whole.sharpest && corner_decides(*whole.sharpest, whole.K))
         whole.termination = Termination::not_teichmuller;
+}
+
+QuadraticDifferential PiecewiseSolver::differential_of_pieces(const std::vector<ExtremalMap>& parts,
+                                                              const Eigen::VectorXcd& phi) const {
+    QuadraticDifferential whole = differential_of(source_, phi);
+    std::vector<int> owner(source_.mesh.vertex_count(), -1);
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+        const std::vector<int>& vertices = pieces_[p].vertices;
+        for (const int v : parts[p].differential.poles) whole.poles.push_back(vertices[v]);
+        for (const int v : parts[p].differential.jumps) whole.jumps.push_back(vertices[v]);
+        for (const int v : vertices) {
+            if (owner[v] >= 0) whole.jumps.push_back(v);  // on a curve that cuts
+            owner[v] = static_cast<int>(p);
+        }
+    }
+    for (std::vector<int>* list : {&whole.poles, &whole.jumps}) {
+        std::sort(list->begin(), list->end());
+        list->erase(std::unique(list->begin(), list->end()), list->end());
+    }
+    return whole;
 }
 
 /// Of every kind the largest, for a bound of a piece's map is one of the whole's.

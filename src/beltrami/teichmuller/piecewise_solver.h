@@ -22,6 +22,8 @@ class PiecewiseSolver {
   private:
     std::string name(std::size_t piece) const;
     void merge(std::vector<ExtremalMap>& parts, ExtremalMap& whole) const;
+    QuadraticDifferential differential_of_pieces(const std::vector<ExtremalMap>& parts,
+                                                 const Eigen::VectorXcd& phi) const;
     void merge_bounds(const std::vector<ExtremalMap>& parts, ExtremalMap& whole) const;
 
     ExtremalOptions options_;

@@ -157,6 +157,12 @@ void ExtremalProblem::set_singularities(Singularities singularities, int cluster
     coefficient_step_.emplace(domain(), chart_, singularities_, phase_, cluster_count);
 }
 
+QuadraticDifferential ExtremalProblem::differential(std::shared_ptr<const DifferentialSpace> space,
+                                                    Eigen::VectorXcd coefficients) const {
+    return differential_of(std::move(space), chart_metric_ ? chart_metric_->chart_on_surface() : chart_,
+                           std::move(coefficients), singularities_);
+}
+
 std::unique_ptr<DifferentialSpace> ExtremalProblem::starting_space(int largest_degree) const {
     if (singularities_.empty()) {
         if (chart_metric_) return std::make_unique<PolynomialSpace>(largest_degree, largest_degree);

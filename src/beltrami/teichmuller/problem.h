@@ -5,6 +5,7 @@
 #include <optional>
 
 #include <beltrami/constraints/boundary_corners.h>
+#include <beltrami/differentials/quadratic_differential.h>
 #include <beltrami/teichmuller/chart_metric.h>
 #include <beltrami/teichmuller/hamilton.h>
 
@@ -41,6 +42,9 @@ class ExtremalProblem {
     Eigen::VectorXcd differential_on_source(const Eigen::VectorXcd& phi) const {
         return chart_metric_ ? chart_metric_->differential_on_surface(phi) : phi;
     }
+    /// A combination of a space of chart(), on the source.
+    QuadraticDifferential differential(std::shared_ptr<const DifferentialSpace> space,
+                                       Eigen::VectorXcd coefficients) const;
     Eigen::VectorXcd coefficient_on_source(const Eigen::VectorXcd& nu) const {
         return chart_metric_ ? chart_metric_->coefficient_on_surface(nu) : nu;
     }

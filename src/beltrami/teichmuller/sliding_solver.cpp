@@ -187,8 +187,10 @@ void SlidingSolver::settle(ExtremalMap& result) {
     }
     last = coefficient_step_->solve(result.distortion.mu, last.direction);
     result.phi = last.phi;
-    record_sliding_bounds(reich_strebel(source_, phi_.chart, *state_.space, last.direction, result.distortion.mu),
-                          last.k, result);
+    std::vector<int> poles = marked_;
+    std::sort(poles.begin(), poles.end());
+    result.differential = {state_.space, std::make_shared<Chart>(phi_.chart), last.direction, std::move(poles), {}};
+    record_sliding_bounds(reich_strebel(source_, result.differential, result.distortion.mu), last.k, result);
 }
 
 /// No differential is admissible: the extremal map is conformal.
