@@ -22,6 +22,7 @@
 #include <beltrami/constraints/boundary_feasibility.h>
 #include <beltrami/constraints/prescribed_split.h>
 #include <beltrami/differentials/quadratic_differential.h>
+#include <beltrami/differentials/zeros_and_poles.h>
 #include <beltrami/evening/even_dilatation.h>
 #include <beltrami/flow/beltrami_flow.h>
 #include <beltrami/generate/double_torus.h>
