@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <tuple>
 
 #include <beltrami/base/disjoint_sets.h>
 #include <beltrami/mesh/quad_split.h>
@@ -16,8 +17,9 @@ namespace beltrami {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-/// φ is real along a loop if the mean of |Im φ(e, e)|/|φ| over its edges is less than this (of any φ it is 2/π).
-constexpr double kReal = 0.25;
+/// φ is real along a loop if the mean of |Im φ(e, e)|/|φ| over its edges is less than this (of any φ it is 2/π):
+/// of one found as real there, on noisy rims, and of any other.
+constexpr double kRealByCondition = 0.5, kReal = 0.1;
 
 /// A face laid out in the frame whose real axis is its first edge, and φ there, the mean over its samples.
 struct LaidOutFace {
@@ -68,8 +70,12 @@ struct Corner {
 
 class Table {
   public:
-    Table(const Surface& source, const Eigen::VectorXcd& phi, const std::vector<int>& poles)
-        : source_(source), poles_(poles), faces_(laid_out_faces(source, phi)), stars_(source.mesh.vertex_count()) {
+    Table(const Surface& source, const Eigen::VectorXcd& phi, const std::vector<int>& poles, bool real)
+        : source_(source),
+          poles_(poles),
+          most_imaginary_(real ? kRealByCondition : kReal),
+          faces_(laid_out_faces(source, phi)),
+          stars_(source.mesh.vertex_count()) {
         for (int f = 0; f < source.mesh.face_count(); ++f) {
             const auto v = source.mesh.faces[f];
             const int n = static_cast<int>(v.size());
@@ -86,23 +92,18 @@ class Table {
     }
 
     std::vector<CriticalPoint> search() const {
-        const std::vector<int> orders = orders_at_vertices();
-        DisjointSets sets(static_cast<int>(orders.size()));
-        for (const auto& [a, b] : source_.topology.edges)
-            if (orders[a] != 0 && orders[b] != 0) sets.join(a, b);
-        std::vector<std::vector<int>> members(orders.size());
-        for (std::size_t v = 0; v < orders.size(); ++v)
-            if (orders[v] != 0) members[sets.find(static_cast<int>(v))].push_back(static_cast<int>(v));
+        const std::vector<int> half_turns = half_turns_at_vertices();
+        std::vector<Group> groups = groups_of(half_turns);
+        remove_noise(groups);
         std::vector<CriticalPoint> result;
-        for (const std::vector<int>& group : members) {
-            int sum = 0;
-            for (const int v : group) sum += orders[v];
-            if (sum == 0) continue;
-            const int v = foremost(group, orders, sum > 0);
+        for (const Group& group : groups) {
+            if (group.half_turns == 0) continue;
+            const int v = foremost(group, half_turns);
             const bool on_boundary = source_.topology.on_boundary[v];
+            const int order = on_boundary ? group.half_turns : group.half_turns / 2;
             std::optional<MeshPoint> place;
-            if (sum == 1 && !on_boundary) place = linear_zero(stars_[v]);
-            result.push_back({place ? *place : at_vertex(stars_[v]), sum, on_boundary});
+            if (order == 1 && !on_boundary) place = linear_zero(stars_[v]);
+            result.push_back({place ? *place : at_vertex(stars_[v]), order, on_boundary});
         }
         std::stable_sort(result.begin(), result.end(),
                          [](const CriticalPoint& a, const CriticalPoint& b) { return a.place.face < b.place.face; });
@@ -110,6 +111,67 @@ class Table {
     }
 
   private:
+    /// Vertices next to each other at which φ turns.
+    struct Group {
+        std::vector<int> members;  ///< ascending
+        int half_turns;            ///< of all: twice the order inside, the order on the boundary
+    };
+
+    std::vector<Group> groups_of(const std::vector<int>& half_turns) const {
+        DisjointSets sets(static_cast<int>(half_turns.size()));
+        for (const auto& [a, b] : source_.topology.edges)
+            if (half_turns[a] != 0 && half_turns[b] != 0) sets.join(a, b);
+        std::vector<int> number(half_turns.size(), -1);
+        std::vector<Group> groups;
+        for (int v = 0; v < static_cast<int>(half_turns.size()); ++v) {
+            if (half_turns[v] == 0) continue;
+            int& group = number[sets.find(v)];
+            if (group < 0) {
+                group = static_cast<int>(groups.size());
+                groups.push_back({{}, 0});
+            }
+            groups[group].members.push_back(v);
+            groups[group].half_turns += half_turns[v];
+        }
+        return groups;
+    }
+
+    /// Negative orders where there is no pole are noise of the values, which has turned something nearby too far: they
+    /// are taken from the nearest groups.
+    void remove_noise(std::vector<Group>& groups) const {
+        std::vector<int> group_at(stars_.size(), -1);
+        for (std::size_t g = 0; g < groups.size(); ++g)
+            for (const int v : groups[g].members) group_at[v] = static_cast<int>(g);
+        for (Group& group : groups) {
+            const bool pole =
+                std::any_of(group.members.begin(), group.members.end(), [&](int v) { return may_be_pole(v); });
+            std::vector<char> seen(group.half_turns < 0 && !pole ? stars_.size() : 0, 0);
+            std::vector<int> queue;
+            for (const int v : group.members)
+                if (!seen.empty()) {
+                    seen[v] = 1;
+                    queue.push_back(v);
+                }
+            for (std::size_t i = 0; i < queue.size() && group.half_turns < 0; ++i) {
+                Group* const other = group_at[queue[i]] < 0 ? nullptr : &groups[group_at[queue[i]]];
+                if (other && other->half_turns > 0) {
+                    const int taken = std::min(other->half_turns, -group.half_turns);
+                    other->half_turns -= taken;
+                    group.half_turns += taken;
+                    other->members.insert(other->members.end(), group.members.begin(), group.members.end());
+                }
+                for (const Corner& corner : stars_[queue[i]])
+                    for (const int v : {corner.next, corner.previous})
+                        if (!seen[v]) {
+                            seen[v] = 1;
+                            queue.push_back(v);
+                        }
+            }
+        }
+    }
+
+    bool may_be_pole(int v) const { return std::binary_search(poles_.begin(), poles_.end(), v); }
+
     /// In the order around the vertex, counter-clockwise; at the boundary from its edge on.
     static void sort_around(std::vector<Corner>& star) {
         const auto starts_at = [&](int vertex) {
@@ -166,17 +228,18 @@ class Table {
     bool real_along(const std::vector<int>& loop) const {
         double sum = 0;
         for (const int v : loop) sum += std::abs(std::sin(argument_next(stars_[v].front())));
-        return sum < kReal * static_cast<double>(loop.size());
+        return sum < most_imaginary_ * static_cast<double>(loop.size());
     }
 
-    std::vector<int> orders_at_vertices() const {
-        std::vector<int> orders(stars_.size(), 0);
+    std::vector<int> half_turns_at_vertices() const {
+        std::vector<int> result(stars_.size(), 0);
         for (std::size_t v = 0; v < stars_.size(); ++v)
-            if (!source_.topology.on_boundary[v] && !stars_[v].empty()) orders[v] = order_inside(static_cast<int>(v));
+            if (!source_.topology.on_boundary[v] && !stars_[v].empty())
+                result[v] = 2 * order_inside(static_cast<int>(v));
         for (const std::vector<int>& loop : source_.topology.boundary_loops)
             if (real_along(loop))
-                for (const int v : loop) orders[v] = order_on_boundary(v);
-        return orders;
+                for (const int v : loop) result[v] = order_on_boundary(v);
+        return result;
     }
 
     double mean_size(int v) const {
@@ -186,16 +249,18 @@ class Table {
         return sum;
     }
 
-    /// Of vertices next to each other, that at which a zero is to be seen: φ is small there; or a pole.
-    int foremost(const std::vector<int>& group, const std::vector<int>& orders, bool zero) const {
+    /// The vertex at which a group is to be seen: where φ is small for a zero, a pole that is known, or where φ is
+    /// large. An odd number of half turns belongs to the boundary.
+    int foremost(const Group& group, const std::vector<int>& half_turns) const {
+        const bool zero = group.half_turns > 0, odd = group.half_turns % 2 != 0;
         int best = -1;
-        double least = std::numeric_limits<double>::infinity();
-        for (const int v : group) {
-            if (zero != (orders[v] > 0)) continue;
-            const bool given = !zero && std::binary_search(poles_.begin(), poles_.end(), v);
-            const double size = given ? -std::numeric_limits<double>::max() : zero ? mean_size(v) : -mean_size(v);
-            if (!(size < least)) continue;
-            least = size;
+        std::tuple<bool, bool, bool, double> least;
+        for (const int v : group.members) {
+            const bool known = !zero && may_be_pole(v);
+            const std::tuple key(odd && !source_.topology.on_boundary[v], !known, zero != (half_turns[v] > 0),
+                                 zero ? mean_size(v) : -mean_size(v));
+            if (best >= 0 && !(key < least)) continue;
+            least = key;
             best = v;
         }
         return best;
@@ -275,6 +340,7 @@ class Table {
 
     const Surface& source_;
     const std::vector<int>& poles_;
+    double most_imaginary_;
     std::vector<LaidOutFace> faces_;
     std::vector<std::vector<Corner>> stars_;  ///< of every vertex
 };
@@ -282,8 +348,8 @@ class Table {
 }  // namespace
 
 std::vector<CriticalPoint> zeros_and_poles_of_table(const Surface& source, const Eigen::VectorXcd& phi,
-                                                    const std::vector<int>& poles) {
-    return Table(source, phi, poles).search();
+                                                    const std::vector<int>& poles, bool real) {
+    return Table(source, phi, poles, real).search();
 }
 
 }  // namespace beltrami

@@ -176,7 +176,7 @@ std::vector<CriticalPoint> zeros_and_poles(const Surface& source, const Quadrati
     if (values.size() != source.operators.sample_count())
         throw Error(Cause::bad_option, "φ has " + std::to_string(values.size()) + " values for " +
                                            std::to_string(source.operators.sample_count()) + " samples");
-    return zeros_and_poles_of_table(source, values, phi.poles);
+    return zeros_and_poles_of_table(source, values, phi.poles, !phi.space->complex_coefficients());
 }
 
 }  // namespace beltrami

@@ -27,7 +27,8 @@ struct CriticalPoint {
 /// the surface's own metric. A simple zero inside is placed where the linear function through the faces around has
 /// its own, anything else at a vertex; vertices next to each other count as one, of the sum of their orders. On
 /// boundary loops along which φ is real, by the half turns there, with angles opened to a straight line (a marked
-/// corner of a rectangle is a pole of dz²); on others not at all. A quad counts with its mean.
+/// corner of a rectangle is a pole of dz²); on others not at all. Negative orders where there is no pole are noise of
+/// the values, and are taken from the nearest zeros. A quad counts with its mean.
 ///
 /// Where all of them are found, twice the orders inside and the orders on the boundary add up to −4χ of the surface if
 /// φ is real along the boundary (Poincaré–Hopf on the double); the orders inside alone to what φ's argument turns along

@@ -9,6 +9,7 @@
 #include <beltrami/charts/domain_chart.h>
 #include <beltrami/differentials/laurent_space.h>
 #include <beltrami/differentials/polynomial_space.h>
+#include <beltrami/differentials/tabulated_space.h>
 #include <beltrami/differentials/zeros_and_poles.h>
 #include <beltrami/generate/round_domains.h>
 #include <beltrami/mesh/planar.h>
@@ -41,6 +42,11 @@ int doubled(const std::vector<CriticalPoint>& points) {
     int sum = 0;
     for (const CriticalPoint& point : points) sum += point.order * (point.on_boundary ? 1 : 2);
     return sum;
+}
+
+int vertex_at(const CriticalPoint& point) {
+    const auto& weights = point.place.barycentric;
+    return point.place.vertices[std::max_element(weights.begin(), weights.end()) - weights.begin()];
 }
 
 Mesh moved(Mesh mesh, Complex a, Complex b) {
@@ -151,8 +157,13 @@ TEST(ZerosAndPoles, OfDifferentialsRealAlongTheBoundaryAddUp) {
 
             // The same, known at the samples only.
             QuadraticDifferential table = differential_of(source, phi.at_samples(source), marked);
+            table.space = std::make_shared<TabulatedSpace>(phi.at_samples(source), Coefficients::real);
             const std::vector<CriticalPoint> seen = zeros_and_poles(source, table);
             EXPECT_EQ(doubled(seen), -4 * euler);
+            for (const CriticalPoint& point : seen)
+                if (point.order < 0) {
+                    EXPECT_TRUE(std::binary_search(marked.begin(), marked.end(), vertex_at(point)));
+                }
         }
     }
 }
