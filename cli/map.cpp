@@ -16,6 +16,7 @@
 #include "onto_options.h"
 #include "output.h"
 #include "page.h"
+#include "phi_option.h"
 #include "slide_option.h"
 #include "start_map_option.h"
 #include "words.h"
@@ -65,6 +66,7 @@ class Map final : public Command {
         start_map_.add_to(*app);
         iteration_.add_to(*app);
         metric_.add_to(*app);
+        phi_.add_to(*app);
         std::vector<std::string> others = baseline_names();
         others.insert(others.end(), sliding_baseline_names().begin(), sliding_baseline_names().end());
         app->add_option("--compare", compare_,
@@ -110,9 +112,10 @@ class Map final : public Command {
             record.solve->seconds_harmonic = harmonic_seconds(source, boundary);
 
         output_.write(mapped.mesh, unit * result.map, result.distortion, attributes_of(result), input_.unit);
+        phi_.write(mapped, result);
         const std::string name = result.pages[0].name;
         write_page(common_.report, mapped.mesh, std::move(result.pages), result.history, record, source_);
-        finish(record, common_, name, {output_.path(), common_.json, common_.report});
+        finish(record, common_, name, {output_.path(), phi_.path(), common_.json, common_.report});
         return 0;
     }
 
@@ -167,6 +170,7 @@ class Map final : public Command {
         refuse(onto_.given() || slide_.given(), "--onto or --slide");
         refuse(homotopy_.given(), "--turns or --waypoints");
         refuse(metric_.given(), "--metric");
+        refuse(phi_.given(), "--phi");
         refuse(boundary_.names_vertices(), "--corners, --first-vertex, --pin or --hole");
         refuse(!compare_.empty(), "--compare");
     }
@@ -224,9 +228,10 @@ class Map final : public Command {
             output_.write(mapped.mesh, result.map, result.distortion, attributes_of(result), input_.unit);
         }
         onto_.write_places(result.places);
+        phi_.write(mapped, result);
         const std::string name = result.pages[0].name;
         write_page(common_.report, mapped.mesh, std::move(result.pages), result.history, record, source_);
-        finish(record, common_, name, {output_.path(), onto_.places_file(), common_.json, common_.report});
+        finish(record, common_, name, {output_.path(), onto_.places_file(), phi_.path(), common_.json, common_.report});
         return 0;
     }
 
@@ -282,6 +287,7 @@ class Map final : public Command {
         inputs.push_back({"SOURCE", source_});
         std::vector<NamedFile> outputs = onto_.outputs();
         outputs.insert(outputs.begin(), {"-o", output_.path()});
+        outputs.push_back(phi_.output());
         common_.check_files(inputs, std::move(outputs));
         if (each_component_) check_each_component();
         iteration_.check({method_, (onto_.given() && !onto_.prescribes()) || slide_.given()});
@@ -306,6 +312,10 @@ class Map final : public Command {
             throw Error(Cause::bad_option,
                         "--slack belongs to the extremal map; with --certify, --minimize max and the other methods the "
                         "boundary values stay as they are",
+                        "leave one of them out");
+        if (phi_.given() && (minimize_ == "max" || method_ != "extremal"))
+            throw Error(Cause::bad_option,
+                        "--phi is about the extremal map: with --minimize max and the other methods there is no φ",
                         "leave one of them out");
         if (method_ == "extremal") return;
         if (certify_) throw Error(Cause::bad_option, "--certify belongs to --method extremal");
@@ -358,6 +368,10 @@ class Map final : public Command {
                             std::to_string(free) +
                                 " boundary vertices are free: the map of least maximum has starts of its own then",
                             "prescribe the whole boundary, or leave out --start-map");
+            if (free > 0 && phi_.given())
+                throw Error(Cause::bad_boundary,
+                            std::to_string(free) + " boundary vertices are free: there is no extremal map, and no φ",
+                            "prescribe the whole boundary, or leave out --phi");
             if (minimize_ == "max" || free > 0) {
                 LeastMaximumOptions how;
                 how.extremal = std::move(options);
@@ -412,6 +426,7 @@ class Map final : public Command {
     StartMapOption start_map_;
     IterationOptions iteration_;
     MetricOption metric_;
+    PhiOption phi_;
 };
 
 }  // namespace

@@ -48,6 +48,15 @@ void record_findings(const ExtremalMap& result, const Surface& source, Record& r
     append(record.warnings, result.warnings);
 }
 
+/// The map and what belongs to it, after the pages.
+void take_map(ExtremalMap result, MethodResult& done) {
+    done.map = std::move(result.map);
+    done.distortion = std::move(result.distortion);
+    done.history = std::move(result.history);
+    done.differential = std::move(result.differential);
+    done.phi = std::move(result.phi);
+}
+
 /// An extremal map into the record and the pages.
 MethodResult finished(ExtremalMap result, const Surface& source, double start, Record& record) {
     record.solve = solve_record(result, seconds() - start);
@@ -57,12 +66,10 @@ MethodResult finished(ExtremalMap result, const Surface& source, double start, R
     done.split = split_surface(result.split);
     if (result.split) done.face_parents = result.split->face_parents;
     const Surface& used = done.split ? *done.split : source;
-    done.history = std::move(result.history);
     done.pages.push_back({"extremal", positions_of(result.map), result.distortion.face_abs_mu});
     done.pages.push_back(
         {"harmonic", positions_of(result.harmonic), distortion(used.operators, result.harmonic).face_abs_mu});
-    done.map = std::move(result.map);
-    done.distortion = std::move(result.distortion);
+    take_map(std::move(result), done);
     return done;
 }
 
@@ -212,9 +219,7 @@ MethodResult run_onto(const Surface& source, const OntoTarget& target, const Con
         for (const LoopOnto& loop : result.loops) own.loops.push_back({loop.loop, loop.curve});
         run_t_map(used, circles ? circle_target(*circles) : *target.domain(), own, done.pages, record);
     }
-    done.history = std::move(result.history);
-    done.map = std::move(result.map);
-    done.distortion = std::move(result.distortion);
+    take_map(std::move(result), done);
     return done;
 }
 

@@ -21,6 +21,8 @@ struct MethodResult {
     std::optional<Positions> positions;  ///< #V images on a target that is a surface
     std::vector<MeshPoint> places;       ///< #V the same on its faces
     std::vector<Iteration> history;
+    QuadraticDifferential differential;  ///< of an extremal map
+    Eigen::VectorXcd phi;                ///< #S its values, as the c-step had them; of others empty
 };
 
 /// The extremal map. Fills the record's map, solve, homotopy, corners, split and warnings.
