@@ -196,12 +196,8 @@ class Search {
         int best = -1;
         double most = kInside;
         for (const int t : triangles) {
-            const Complex a = corner(t, 0), b = corner(t, 1), c = corner(t, 2);
-            const auto cross = [](Complex p, Complex q) { return std::imag(std::conj(p) * q); };
-            const double area = cross(b - a, c - a);
-            const double least =
-                std::min({cross(b - point, c - point), cross(c - point, a - point), cross(a - point, b - point)}) /
-                area;
+            const auto weights = barycentric({corner(t, 0), corner(t, 1), corner(t, 2)}, point);
+            const double least = *std::min_element(weights.begin(), weights.end());
             if (least > most) {
                 most = least;
                 best = t;
@@ -305,6 +301,14 @@ class Search {
 };
 
 }  // namespace
+
+std::array<double, 3> barycentric(const std::array<Complex, 3>& triangle, Complex point) {
+    const auto& [a, b, c] = triangle;
+    const auto cross = [](Complex p, Complex q) { return std::imag(std::conj(p) * q); };
+    const double area = cross(b - a, c - a), u = cross(b - point, c - point) / area,
+                 v = cross(c - point, a - point) / area;
+    return {u, v, 1 - u - v};
+}
 
 std::optional<int> turns_on_circle(const PlaneFunction& f, Complex centre, double radius) {
     const auto point = [&](int, double t) { return centre + std::polar(radius, kTurn * t); };

@@ -41,6 +41,9 @@ struct PlaneZero {
 std::vector<PlaneZero> zeros_and_poles_in(const PlaneTriangles& region, const PlaneFunction& f,
                                           const std::vector<int>& poles, const std::vector<int>& cuts = {});
 
+/// Barycentric coordinates of a point of the plane.
+std::array<double, 3> barycentric(const std::array<Complex, 3>& triangle, Complex point);
+
 /// What the argument of a function turns on a circle, counter-clockwise, in whole turns; nothing where it cannot be
 /// followed.
 std::optional<int> turns_on_circle(const PlaneFunction& f, Complex centre, double radius);

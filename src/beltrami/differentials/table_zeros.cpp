@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include <beltrami/base/disjoint_sets.h>
+#include <beltrami/differentials/argument_principle.h>
 #include <beltrami/mesh/quad_split.h>
 #include <beltrami/operators/frames.h>
 
@@ -329,11 +330,10 @@ class Table {
             const auto halves = split_quad(points);
             triangles.assign(halves.begin(), halves.end());
         }
-        const auto cross = [](Complex a, Complex b) { return std::imag(std::conj(a) * b); };
         for (const auto& t : triangles) {
-            const Complex a = q[t[0]], b = q[t[1]], c = q[t[2]];
-            const double area = cross(b - a, c - a), u = cross(b - at, c - at) / area, v = cross(c - at, a - at) / area;
-            if (u >= 0 && v >= 0 && u + v <= 1) return corner_point(corner.face, t, {u, v, 1 - u - v});
+            const auto weights = barycentric({q[t[0]], q[t[1]], q[t[2]]}, at);
+            if (std::all_of(weights.begin(), weights.end(), [](double weight) { return weight >= 0; }))
+                return corner_point(corner.face, t, weights);
         }
         return {};
     }

@@ -151,11 +151,13 @@ class PlaneOfDifferential {
             return {point, zero.order, true};
         }
         const FaceTriangle& triangle = triangles_[zero.triangle];
-        const Complex a = region_.points[triangle.vertices[0]], b = region_.points[triangle.vertices[1]],
-                      c = region_.points[triangle.vertices[2]];
-        const double area = cross(b - a, c - a), u = std::clamp(cross(b - zero.at, c - zero.at) / area, 0.0, 1.0),
-                     v = std::clamp(cross(c - zero.at, a - zero.at) / area, 0.0, 1.0 - u);
-        return {{triangle.face, triangle.vertices, {u, v, 1 - u - v}}, zero.order, false};
+        std::array<Complex, 3> corners;
+        for (int j = 0; j < 3; ++j) corners[j] = region_.points[triangle.vertices[j]];
+        auto weights = barycentric(corners, zero.at);
+        weights[0] = std::clamp(weights[0], 0.0, 1.0);  // on an edge up to rounding
+        weights[1] = std::clamp(weights[1], 0.0, 1.0 - weights[0]);
+        weights[2] = 1 - weights[0] - weights[1];
+        return {{triangle.face, triangle.vertices, weights}, zero.order, false};
     }
 
     const Surface& source_;
