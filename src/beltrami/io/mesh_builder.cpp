@@ -1,13 +1,12 @@
 #include <beltrami/io/mesh_builder.h>
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
 #include <fmt/format.h>
 
 #include <beltrami/io/text_scanner.h>
-#include <beltrami/meshing/polygon_split.h>
+#include <beltrami/meshing/face_split.h>
 
 namespace beltrami {
 
@@ -52,37 +51,18 @@ void MeshBuilder::note_large(std::size_t corners, const std::string& place) {
 }
 
 void MeshBuilder::split_large_faces(Mesh& mesh) {
-    FaceList faces;
-    std::vector<int> texture, parents;
-    const auto corners = mesh.texture ? &mesh.texture->corners : nullptr;
+    std::size_t corners = 0;
     for (int f = 0; f < mesh.face_count(); ++f) {
-        const auto face = mesh.faces[f];
-        const int first = mesh.faces.first_corner(f), degree = mesh.faces.degree(f);
-        const auto add = [&](std::span<const int> chosen) {
-            std::vector<int> vertices;
-            for (const int c : chosen) {
-                vertices.push_back(face[c]);
-                if (corners) texture.push_back((*corners)[first + c]);
-            }
-            check_room(faces.vertices().size() + vertices.size(), "face corners");
-            faces.add(vertices);
-            parents.push_back(f);
-        };
-        if (degree <= 4) {
-            static constexpr std::array<int, 4> all{0, 1, 2, 3};
-            add(std::span<const int>(all).first(degree));
-            continue;
-        }
-        Positions polygon(degree, dimension_);
-        for (int c = 0; c < degree; ++c) polygon.row(c) = mesh.positions.row(face[c]);
-        for (const auto& triangle : split_polygon(polygon)) add(triangle);
+        const auto degree = static_cast<std::size_t>(mesh.faces.degree(f));
+        corners += degree > 4 ? 3 * (degree - 2) : degree;
     }
-    mesh.faces = std::move(faces);
-    if (mesh.texture) mesh.texture->corners = std::move(texture);
+    check_room(corners, "face corners");
+    SplitMesh split = beltrami::split_large_faces(mesh);
+    mesh = std::move(split.mesh);
     if (attributes_.face_columns.empty() && attributes_.face_states.empty()) return;
     std::vector<std::vector<int>> same(static_cast<std::size_t>(mesh.vertex_count()));
     for (int v = 0; v < mesh.vertex_count(); ++v) same[v] = {v};
-    attributes_ = carried(attributes_, same, parents);
+    attributes_ = carried(attributes_, same, split.faces);
 }
 
 LoadedMesh MeshBuilder::finish() {

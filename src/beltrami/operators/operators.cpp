@@ -8,6 +8,7 @@
 #include <beltrami/base/error.h>
 #include <beltrami/mesh/planar.h>
 #include <beltrami/mesh/topology.h>
+#include <beltrami/operators/face_areas.h>
 
 namespace beltrami {
 
@@ -71,9 +72,14 @@ struct Builder {
         }
     }
 
+    std::vector<int> without_area() {
+        bad_faces.erase(std::unique(bad_faces.begin(), bad_faces.end()), bad_faces.end());
+        return bad_faces;
+    }
+
     Operators finish() {
         if (!bad_faces.empty()) {
-            bad_faces.erase(std::unique(bad_faces.begin(), bad_faces.end()), bad_faces.end());
+            without_area();
             const std::string sentence =
                 "face " + std::to_string(bad_faces[0]) +
                 (bad_faces.size() > 1 ? " and " + std::to_string(bad_faces.size() - 1) + " more have" : " has") +
@@ -104,7 +110,7 @@ void lay_out(Builder& builder, int face, std::span<const int> vertices, const Ve
 }
 
 template <class PointOfCorner>
-Operators from_corner_points(const Mesh& mesh, PointOfCorner&& point) {
+Builder from_corner_points(const Mesh& mesh, PointOfCorner&& point) {
     Builder builder(mesh);
     for (int f = 0; f < mesh.face_count(); ++f) {
         const auto vertices = mesh.faces[f];
@@ -116,10 +122,10 @@ Operators from_corner_points(const Mesh& mesh, PointOfCorner&& point) {
             builder.quad(f, vertices, p, p[1] - p[0], (p[2] - p[0]).cross(p[3] - p[1]));
         }
     }
-    return builder.finish();
+    return builder;
 }
 
-Operators planar_operators(const Mesh& mesh) {
+Builder planar_builder(const Mesh& mesh) {
     Builder builder(mesh);
     const Eigen::VectorXcd z = planar_coordinates(mesh);
     for (int f = 0; f < mesh.face_count(); ++f) {
@@ -132,7 +138,12 @@ Operators planar_operators(const Mesh& mesh) {
             builder.quad(f, v, p, Vector3::UnitX(), Vector3::UnitZ());
         }
     }
-    return builder.finish();
+    return builder;
+}
+
+Builder builder_of(const Mesh& mesh) {
+    if (is_planar(mesh)) return planar_builder(mesh);
+    return from_corner_points(mesh, [&](int corner) { return mesh.point(mesh.faces.vertices()[corner]); });
 }
 
 }  // namespace
@@ -158,15 +169,20 @@ Operators::Matrix Operators::d_z() const {
 }
 
 Operators operators(const Mesh& mesh) {
-    if (!is_planar(mesh))
-        return from_corner_points(mesh, [&](int corner) { return mesh.point(mesh.faces.vertices()[corner]); });
-    return planar_operators(mesh);
+    return builder_of(mesh).finish();
+}
+
+std::vector<int> faces_without_area(const Mesh& mesh) {
+    return builder_of(mesh).without_area();
 }
 
 Operators operators_from_corners(const Mesh& mesh, const Positions& corners) {
-    return from_corner_points(mesh, [&](int corner) -> Vector3 {
-        return {corners(corner, 0), corners(corner, 1), corners.cols() > 2 ? corners(corner, 2) : 0.0};
-    });
+    return from_corner_points(
+               mesh,
+               [&](int corner) -> Vector3 {
+                   return {corners(corner, 0), corners(corner, 1), corners.cols() > 2 ? corners(corner, 2) : 0.0};
+               })
+        .finish();
 }
 
 Positions corners_from_lengths(const Mesh& mesh, std::span<const EdgeLength> lengths) {

@@ -1,0 +1,78 @@
+#include <beltrami/meshing/face_split.h>
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <utility>
+
+#include <beltrami/mesh/quad_split.h>
+#include <beltrami/meshing/polygon_split.h>
+#include <beltrami/operators/face_areas.h>
+
+namespace beltrami {
+
+namespace {
+
+/// Cuts the faces into what triangles_of(face) says in corners; nothing: the face stays.
+template <class TrianglesOf>
+SplitMesh cut_faces(const Mesh& mesh, TrianglesOf&& triangles_of) {
+    SplitMesh result;
+    result.mesh.positions = mesh.positions;
+    std::vector<int> texture;
+    std::vector<int> vertices, corners;
+    for (int f = 0; f < mesh.face_count(); ++f) {
+        const auto face = mesh.faces[f];
+        const auto add = [&](std::span<const int> chosen) {
+            vertices.clear();
+            for (const int c : chosen) {
+                vertices.push_back(face[c]);
+                if (mesh.texture) texture.push_back(mesh.texture->corners[mesh.faces.first_corner(f) + c]);
+            }
+            result.mesh.faces.add(vertices);
+            result.faces.push_back(f);
+        };
+        const std::vector<std::array<int, 3>> triangles = triangles_of(f);
+        if (triangles.empty()) {
+            corners.resize(face.size());
+            for (std::size_t c = 0; c < face.size(); ++c) corners[c] = static_cast<int>(c);
+            add(corners);
+        } else {
+            for (const auto& triangle : triangles) add(triangle);
+            result.cut.push_back(f);
+        }
+    }
+    if (mesh.texture) result.mesh.texture = TextureCoordinates{mesh.texture->points, std::move(texture)};
+    return result;
+}
+
+}  // namespace
+
+SplitMesh split_large_faces(const Mesh& mesh) {
+    return cut_faces(mesh, [&](int f) -> std::vector<std::array<int, 3>> {
+        const auto face = mesh.faces[f];
+        if (face.size() <= 4) return {};
+        Positions polygon(static_cast<Eigen::Index>(face.size()), mesh.positions.cols());
+        for (std::size_t c = 0; c < face.size(); ++c)
+            polygon.row(static_cast<Eigen::Index>(c)) = mesh.positions.row(face[c]);
+        return split_polygon(polygon);
+    });
+}
+
+SplitMesh split_unusable_faces(const Mesh& mesh) {
+    SplitMesh first = split_large_faces(mesh);
+    const std::vector<int> folded = faces_without_area(first.mesh);
+    SplitMesh second = cut_faces(first.mesh, [&](int f) -> std::vector<std::array<int, 3>> {
+        if (first.mesh.faces.degree(f) != 4 || !std::ranges::binary_search(folded, f)) return {};
+        const auto v = first.mesh.faces[f];
+        const auto halves = split_quad(
+            {first.mesh.point(v[0]), first.mesh.point(v[1]), first.mesh.point(v[2]), first.mesh.point(v[3])});
+        return {halves.begin(), halves.end()};
+    });
+    for (int& f : second.faces) f = first.faces[f];
+    for (int& f : second.cut) f = first.faces[f];
+    second.cut.insert(second.cut.end(), first.cut.begin(), first.cut.end());
+    std::ranges::sort(second.cut);
+    return second;
+}
+
+}  // namespace beltrami

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include <beltrami/mesh/mesh.h>
+
+namespace beltrami {
+
+/// A mesh some faces of which were cut into triangles. Order is kept, texture coordinates come along.
+struct SplitMesh {
+    Mesh mesh;
+    std::vector<int> faces;  ///< the face of the old mesh, for each face
+    std::vector<int> cut;    ///< those of the old mesh that were cut, ascending
+};
+
+/// Cuts faces with more than four corners (split_polygon).
+/// @pre indices of the faces are in range; texture coordinates, if any, have one index per corner
+SplitMesh split_large_faces(const Mesh& mesh);
+
+/// Cuts what the operators do not take: faces with more than four corners, and quads that fold (faces_without_area),
+/// these by split_quad().
+/// @pre as above
+SplitMesh split_unusable_faces(const Mesh& mesh);
+
+}  // namespace beltrami
