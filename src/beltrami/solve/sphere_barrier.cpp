@@ -1,0 +1,181 @@
+#include <beltrami/solve/sphere_barrier.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include <beltrami/base/error.h>
+#include <beltrami/base/parallel.h>
+#include <beltrami/sphere/unit_sphere.h>
+
+namespace beltrami {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr int kExpectedFactorizations = 20;
+constexpr double kLongestMotion = 0.7;  // radians
+constexpr double kShortest = 1e-6;      // step length below which no step is taken
+constexpr double kShift = 1e-9, kLargestShift = 1e-3;
+constexpr double kShort = 0.3, kNearlyFull = 0.9;  // step lengths at which the damping is raised and lowered
+constexpr double kFirstDamping = 1e-3, kLeastDamping = 1e-5, kDampingFactor = 4;
+constexpr double kNoticeable = 1e-2;
+
+}  // namespace
+
+/// A sample of the map: its derivatives in an orthonormal frame of the image, seen from outside.
+struct SphereBarrier::Sample {
+    Complex p, q;            // ∂f, ∂̄f
+    Eigen::Vector3d e1, e2;  // the frame
+    Complex quotient;        // T
+    Complex denominator;     // 1 − conj(σ) μ
+    bool upright = false;
+};
+
+SphereBarrier::SphereBarrier(const Operators& operators, std::vector<Freedom> freedoms, Eigen::VectorXcd sigma,
+                             std::vector<double> weights)
+    : operators_(operators),
+      freedoms_(std::move(freedoms)),
+      sigma_(std::move(sigma)),
+      weights_(std::move(weights)),
+      total_weight_(std::accumulate(weights_.begin(), weights_.end(), 0.0)),
+      system_(operators, freedoms_, kExpectedFactorizations) {}
+
+SphereBarrier::Sample SphereBarrier::at(int sample, const Positions& points) const {
+    const auto stencil = operators_.stencil(sample);
+    const auto gradient = operators_.gradient(sample);
+    Eigen::Vector3d x = Eigen::Vector3d::Zero(), y = x, up = x;
+    const Eigen::Vector3d base = points.row(stencil[0]);
+    for (std::size_t j = 0; j < stencil.size(); ++j) {
+        const Eigen::Vector3d point = points.row(stencil[j]);
+        x += gradient[j].real() * (point - base);
+        y += gradient[j].imag() * (point - base);
+        up += point;
+    }
+    Sample s;
+    const Eigen::Vector3d normal = x.cross(y);
+    if (!(normal.dot(up) > 0)) return s;
+    s.e1 = (x.squaredNorm() >= y.squaredNorm() ? x : y).normalized();
+    s.e2 = normal.cross(s.e1).normalized();
+    const Complex fx(x.dot(s.e1), x.dot(s.e2)), fy(y.dot(s.e1), y.dot(s.e2)), i(0, 1);
+    s.p = 0.5 * (fx - i * fy);
+    s.q = 0.5 * (fx + i * fy);
+    const Complex mu = s.q / s.p;
+    s.denominator = 1.0 - std::conj(sigma_[sample]) * mu;
+    s.quotient = (mu - sigma_[sample]) / s.denominator;
+    s.upright = std::norm(s.quotient) < 1;
+    return s;
+}
+
+double SphereBarrier::value(const Positions& points) const {
+    const double sum = parallel_sum(operators_.sample_count(), 0.0, [&](int first, int last) {
+        double part = 0;
+        for (int s = first; s < last; ++s) {
+            const Sample sample = at(s, points);
+            if (!sample.upright) return kInfinity;
+            const double square = std::norm(sample.quotient);
+            part += weights_[s] * square / (1 - square);
+        }
+        return part;
+    });
+    return sum / total_weight_;
+}
+
+/// Of the smallest face at each vertex the longest edge in the image.
+Eigen::VectorXd SphereBarrier::local_sizes(const Positions& points) const {
+    Eigen::VectorXd sizes = Eigen::VectorXd::Constant(operators_.vertex_count, kInfinity);
+    for (int s = 0; s < operators_.sample_count(); ++s) {
+        const auto stencil = operators_.stencil(s);
+        double longest = 0;
+        for (std::size_t j = 0; j < stencil.size(); ++j)
+            longest =
+                std::max(longest, (points.row(stencil[(j + 1) % stencil.size()]) - points.row(stencil[j])).norm());
+        for (const int v : stencil) sizes[v] = std::min(sizes[v], longest);
+    }
+    for (double& size : sizes) size = std::isfinite(size) ? std::max(size, 1e-300) : 1;
+    return sizes;
+}
+
+void SphereBarrier::assemble(const Positions& points, const Eigen::VectorXd& units) {
+    system_.set_zero();
+    constexpr int kMost = 8;
+    std::array<double, kMost> along, across, gradient;
+    std::array<double, kMost*(kMost + 1) / 2> hessian;
+    for (int s = 0; s < operators_.sample_count(); ++s) {
+        const Sample sample = at(s, points);
+        const auto stencil = operators_.stencil(s);
+        const auto g = operators_.gradient(s);
+        const double d = std::abs(sample.quotient), rest = 1 - d * d;
+        Complex phase = std::conj(sample.p) / sample.p;
+        phase *= std::norm(sample.denominator) / (sample.denominator * sample.denominator);
+        if (d > 1e-14) phase *= std::conj(sample.quotient) / d;
+        const double area = std::norm(sample.p) - std::norm(sample.q);
+        for (std::size_t j = 0; j < stencil.size(); ++j) {
+            const TangentFrame frame(points.row(stencil[j]));
+            for (int a = 0; a < 2; ++a) {
+                const Eigen::Vector3d direction = units[stencil[j]] * (a == 0 ? frame.first : frame.second);
+                const Complex b(direction.dot(sample.e1), direction.dot(sample.e2));
+                // ∂̄ of the motion as a function of the image, from its derivatives ½ b conj(g) and ½ b g in the source.
+                const Complex change = 0.5 * b * (sample.p * g[j] - sample.q * std::conj(g[j])) / area * phase;
+                along[2 * j + a] = change.real();
+                across[2 * j + a] = change.imag();
+            }
+        }
+        const double weight = weights_[s] / (rest * total_weight_);
+        const auto unknowns = 2 * stencil.size();
+        std::size_t entry = 0;
+        for (std::size_t i = 0; i < unknowns; ++i) {
+            gradient[i] = weight * d * along[i];
+            for (std::size_t j = 0; j <= i; ++j)
+                hessian[entry++] = weight * (along[i] * along[j] + rest * rest * across[i] * across[j]);
+        }
+        system_.add(s, gradient.data(), hessian.data());
+    }
+}
+
+SphereBarrier::Taken SphereBarrier::step(Positions& points) {
+    const double before = value(points);
+    const Eigen::VectorXd units = local_sizes(points);
+    CoupledSystem::Step step;
+    for (double shift = kShift;; shift *= 100) {
+        assemble(points, units);
+        system_.scale_diagonal(1 + shift + damping_);
+        try {
+            step = system_.solve();
+            break;
+        } catch (const Error& error) {
+            if (error.cause() != Cause::not_solved || shift >= kLargestShift) throw;
+        }
+    }
+    Positions motion = Positions::Zero(points.rows(), 3);
+    for (Eigen::Index v = 0; v < points.rows(); ++v) {
+        if (freedoms_[v] == Freedom::fixed) continue;
+        const TangentFrame frame(points.row(v));
+        motion.row(v) =
+            units[v] * (step.direction[v].real() * frame.first + step.direction[v].imag() * frame.second).transpose();
+    }
+    const double largest = motion.rowwise().norm().maxCoeff();
+    Taken taken;
+    for (double length = std::min(1.0, kLongestMotion / largest); length > kShortest; length *= 0.5) {
+        Positions trial = points + length * motion;
+        for (Eigen::Index v = 0; v < trial.rows(); ++v)
+            if (freedoms_[v] != Freedom::fixed) trial.row(v).normalize();
+        const double there = value(trial);
+        if (!(there < before)) continue;
+        points = std::move(trial);
+        taken = {length, 1 - there / before, damping_ > kNoticeable};
+        break;
+    }
+    if (taken.length < kShort)
+        damping_ = std::max(kDampingFactor * damping_, kFirstDamping);
+    else if (taken.length > kNearlyFull)
+        damping_ = damping_ / kDampingFactor < kLeastDamping ? 0 : damping_ / kDampingFactor;
+    return taken;
+}
+
+}  // namespace beltrami
