@@ -71,4 +71,5 @@
 #include <beltrami/teichmuller/least_maximum.h>
 #include <beltrami/unfold/fold_free.h>
 #include <beltrami/uniformize/flatten.h>
+#include <beltrami/uniformize/sphere_map.h>
 #include <beltrami/version.h>

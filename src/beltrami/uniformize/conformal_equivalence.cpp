@@ -27,12 +27,13 @@ struct State {
     std::vector<int> degenerate;
     double residual = 0;
 
-    void update(const IntrinsicTriangulation& triangulation, const ScaleFactorProblem& problem,
-                const Eigen::VectorXd& u) {
+    void update(const ScaledSurface& surface, const ScaleFactorProblem& problem, const Eigen::VectorXd& u) {
+        const IntrinsicTriangulation& triangulation = surface.triangulation();
         defect = problem.target_angles;
-        cotangents.resize(static_cast<std::size_t>(triangulation.halfedge_count()));
+        cotangents.assign(static_cast<std::size_t>(triangulation.halfedge_count()), 0.0);
         degenerate.clear();
         for (int t = 0; t < triangulation.triangle_count(); ++t) {
+            if (!surface.is_finite(t)) continue;
             const TriangleAngles triangle = triangulation.angles(t, u);
             if (triangle.degenerate) degenerate.push_back(t);
             for (int k = 0; k < 3; ++k) {
@@ -42,27 +43,44 @@ struct State {
             }
         }
         residual = 0;
-        for (double& value : defect) {
-            if (std::isnan(value)) value = 0;
-            residual = std::max(residual, std::abs(value));
+        for (int v = 0; v < triangulation.vertex_count(); ++v) {
+            if (std::isnan(defect[v]) || surface.is_held(v)) defect[v] = 0;
+            residual = std::max(residual, std::abs(defect[v]));
         }
     }
 };
 
+/// A surface of which nothing but the problem holds vertices.
+class PlainSurface final : public ScaledSurface {
+  public:
+    explicit PlainSurface(IntrinsicTriangulation& triangulation) : triangulation_(triangulation) {}
+    const IntrinsicTriangulation& triangulation() const override { return triangulation_; }
+    int make_delaunay(Eigen::VectorXd& u) override { return triangulation_.make_delaunay(u); }
+
+  private:
+    IntrinsicTriangulation& triangulation_;
+};
+
+std::vector<char> free_vertices(const ScaledSurface& surface, const ScaleFactorProblem& problem) {
+    std::vector<char> free = problem.free;
+    for (std::size_t v = 0; v < free.size(); ++v) free[v] = free[v] && !surface.is_held(static_cast<int>(v));
+    return free;
+}
+
 /// The cotangent Laplacian of the free vertices. Its pattern is rebuilt only after flips.
 class Hessian {
   public:
-    Hessian(const std::vector<char>& free) : unknowns_(free.size(), -1) {
-        for (std::size_t v = 0; v < free.size(); ++v)
-            if (free[v]) unknowns_[v] = size_++;
-    }
-    int size() const { return size_; }
     int factorizations() const { return factorizations_; }
     void forget_pattern() { solver_.reset(); }
 
+    /// @param free which vertices are, read where the pattern is rebuilt
     /// @return −H⁻¹ defect at the free vertices, 0 elsewhere
-    Eigen::VectorXd step(const IntrinsicTriangulation& triangulation, const State& state) {
-        if (!solver_) build_pattern(triangulation);
+    Eigen::VectorXd step(const IntrinsicTriangulation& triangulation, const std::vector<char>& free,
+                         const State& state) {
+        if (!solver_) {
+            number(free);
+            build_pattern(triangulation);
+        }
         fill(triangulation, state.cotangents);
         Eigen::VectorXd right_side(size_);
         for (std::size_t v = 0; v < unknowns_.size(); ++v)
@@ -75,6 +93,13 @@ class Hessian {
     }
 
   private:
+    void number(const std::vector<char>& free) {
+        unknowns_.assign(free.size(), -1);
+        size_ = 0;
+        for (std::size_t v = 0; v < free.size(); ++v)
+            if (free[v]) unknowns_[v] = size_++;
+    }
+
     /// Row and column of an edge in the lower triangle; −1 if an end is fixed or both are the same vertex.
     std::pair<int, int> place(const IntrinsicTriangulation& triangulation, int h) const {
         const int i = unknowns_[triangulation.tail(h)], j = unknowns_[triangulation.head(h)];
@@ -179,14 +204,27 @@ class Hessian {
 
 ScaleFactors solve_scale_factors(IntrinsicTriangulation& triangulation, const ScaleFactorProblem& problem,
                                  Eigen::VectorXd u) {
+    PlainSurface surface(triangulation);
+    return solve_scale_factors(surface, problem, std::move(u));
+}
+
+ScaleFactors solve_scale_factors(ScaledSurface& surface, const ScaleFactorProblem& problem, Eigen::VectorXd u) {
     ScaleFactors result;
-    Hessian hessian(problem.free);
+    Hessian hessian;
     State state, trial;
-    result.flips = triangulation.make_delaunay(u);
-    state.update(triangulation, problem, u);
+    result.flips = surface.make_delaunay(u);
+    state.update(surface, problem, u);
 
     while (true) {
-        if (state.residual <= problem.tolerance || hessian.size() == 0) {
+        const int released = surface.release(u);
+        if (released > 0) {
+            result.flips += released;
+            hessian.forget_pattern();
+            state.update(surface, problem, u);
+        }
+        const std::vector<char> free = free_vertices(surface, problem);
+        if ((state.residual <= problem.tolerance && released == 0) ||
+            std::find(free.begin(), free.end(), 1) == free.end()) {
             result.status = ScaleFactorStatus::converged;
             break;
         }
@@ -196,29 +234,30 @@ ScaleFactors solve_scale_factors(IntrinsicTriangulation& triangulation, const Sc
         }
         if (result.iterations == problem.max_iterations) break;
 
-        const Eigen::VectorXd direction = hessian.step(triangulation, state);
+        const Eigen::VectorXd direction = hessian.step(surface.triangulation(), free, state);
         const double slope = state.defect.dot(direction);
+        const bool rounding = state.residual < kRoundingLevel && released == 0;
         // The energy is convex, so a slope that is still negative means descent; its value is never needed.
         bool accepted = false;
         double length = 1;
         for (int halving = 0; halving < kMostHalvings && !accepted; ++halving, length /= 2) {
-            const Eigen::VectorXd candidate = u + length * direction;
-            const int flips = triangulation.make_delaunay(candidate);
+            Eigen::VectorXd candidate = u + length * direction;
+            const int flips = surface.make_delaunay(candidate);
             if (flips > 0) hessian.forget_pattern();
             result.flips += flips;
-            trial.update(triangulation, problem, candidate);
+            trial.update(surface, problem, candidate);
             const double trial_slope = trial.defect.dot(direction);
             accepted = trial_slope <= -kSlopeAllowed * slope || trial.residual < 0.5 * state.residual;
-            if (state.residual < kRoundingLevel) accepted = trial.residual < state.residual;
+            if (rounding) accepted = trial.residual < state.residual;
             if (accepted) {
-                u = candidate;
+                u = std::move(candidate);
                 std::swap(state, trial);
             }
         }
         ++result.iterations;
         if (!accepted) {
-            result.flips += triangulation.make_delaunay(u);
-            state.update(triangulation, problem, u);
+            result.flips += surface.make_delaunay(u);
+            state.update(surface, problem, u);
             result.status =
                 state.residual < kRoundingLevel ? ScaleFactorStatus::stagnated : ScaleFactorStatus::out_of_steps;
             break;

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include <beltrami/uniformize/intrinsic_triangulation.h>
+#include <beltrami/uniformize/scaled_surface.h>
 
 namespace beltrami {
 
@@ -47,5 +47,9 @@ struct ScaleFactors {
 /// @throw Error not_solved if the Laplacian cannot be factorised even with a shift of its diagonal
 ScaleFactors solve_scale_factors(IntrinsicTriangulation& triangulation, const ScaleFactorProblem& problem,
                                  Eigen::VectorXd u);
+
+/// The same on any surface that can be scaled: before every step it may release vertices that it holds, and the
+/// iteration has converged only where it releases none.
+ScaleFactors solve_scale_factors(ScaledSurface& surface, const ScaleFactorProblem& problem, Eigen::VectorXd u);
 
 }  // namespace beltrami

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <string>
 #include <utility>
 
@@ -13,11 +12,11 @@
 
 #include <beltrami/base/error.h>
 #include <beltrami/mesh/planar.h>
-#include <beltrami/mesh/quad_split.h>
 #include <beltrami/mesh/topology.h>
 #include <beltrami/plane/polygon.h>
 #include <beltrami/uniformize/conformal_equivalence.h>
 #include <beltrami/uniformize/flatten_layout.h>
+#include <beltrami/uniformize/triangle_metric.h>
 
 namespace beltrami {
 
@@ -26,11 +25,8 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 constexpr int kMostSplitRounds = 40;
-constexpr double kSplitAngle = 0.8 * kPi;       // opposite a boundary edge: split it along with those that must be
-constexpr double kAngleSumSlack = 1e-6;         // radians, of the sum of prescribed angles
-constexpr double kSmallestSlack = 1e-14;        // of a triangle's longest side: below, it has no area
-constexpr double kSlackGiven = 1e-10;           // of the mean length
-constexpr double kLargestContradiction = 1e-4;  // of a triangle's longest side, by which the inequality may fail
+constexpr double kSplitAngle = 0.8 * kPi;  // opposite a boundary edge: split it along with those that must be
+constexpr double kAngleSumSlack = 1e-6;    // radians, of the sum of prescribed angles
 
 Topology require_disk(const Mesh& surface) {
     if (surface.face_count() == 0) throw Error(Cause::bad_mesh, "the mesh has no faces", "flatten needs a surface");
@@ -62,85 +58,6 @@ void require_corners(const Mesh& surface, const Positions& corners) {
         if (!corners.middleRows(surface.faces.first_corner(f), surface.faces.degree(f)).allFinite())
             throw Error(Cause::bad_mesh, "face " + std::to_string(f) + " has a corner whose place is not finite",
                         "repair the positions or the metric", {f});
-}
-
-Eigen::Vector3d point_of(const Positions& corners, int corner) {
-    return {corners(corner, 0), corners(corner, 1), corners.cols() > 2 ? corners(corner, 2) : 0.0};
-}
-
-/// The surface in triangles, with edge lengths as logarithms relative to exp(log_unit), so that its size never matters.
-struct Metric {
-    FaceList triangles;
-    std::vector<double> log_lengths;  // per triangle corner
-    double log_unit = 0;
-    double lengthened = 0;
-};
-
-/// Of faces that have the shapes of their corner points; where two differ about their edge, it has the mean length.
-Metric metric_of(const Mesh& surface, const Topology& shape, const Positions& corners) {
-    const auto point = [&](int corner) { return point_of(corners, corner); };
-    std::vector<double> edge_lengths(shape.edges.size(), -1);
-    for (int f = 0; f < surface.face_count(); ++f) {
-        const int first = surface.faces.first_corner(f), n = surface.faces.degree(f);
-        for (int i = 0; i < n; ++i) {
-            const double length = (point(first + (i + 1) % n) - point(first + i)).stableNorm();
-            double& known = edge_lengths[shape.corner_edges[first + i]];
-            known = known < 0 ? length : std::midpoint(known, length);  // an edge has two faces at most
-        }
-    }
-
-    Metric metric;
-    metric.triangles.reserve(2 * surface.face_count(), 6 * surface.face_count());
-    std::vector<double> lengths;
-    std::vector<int> triangle_faces;
-    lengths.reserve(static_cast<std::size_t>(6) * surface.face_count());
-    for (int f = 0; f < surface.face_count(); ++f) {
-        const std::span<const int> v = surface.faces[f];
-        const int first = surface.faces.first_corner(f), n = surface.faces.degree(f);
-        const auto add = [&](const std::array<int, 3>& triangle) {
-            metric.triangles.add({v[triangle[0]], v[triangle[1]], v[triangle[2]]});
-            triangle_faces.push_back(f);
-            for (int k = 0; k < 3; ++k) {
-                const int from = triangle[k], to = triangle[(k + 1) % 3];
-                lengths.push_back(to == (from + 1) % n ? edge_lengths[shape.corner_edges[first + from]]
-                                                       : (point(first + to) - point(first + from)).stableNorm());
-            }
-        };
-        if (n == 3) {
-            add({0, 1, 2});
-        } else {
-            for (const auto& half : split_quad({point(first), point(first + 1), point(first + 2), point(first + 3)}))
-                add(half);
-        }
-    }
-
-    double mean = 0, missing = 0;
-    for (const double length : lengths) mean += length;
-    mean /= static_cast<double>(lengths.size());
-    if (!(mean > 0) || !std::isfinite(mean))
-        throw Error(Cause::bad_mesh, "the surface has no size", "all corners of its faces coincide");
-    std::vector<int> broken;
-    for (std::size_t t = 0; t < triangle_faces.size(); ++t) {
-        const double a = lengths[3 * t], b = lengths[3 * t + 1], c = lengths[3 * t + 2];
-        const double longest = std::max({a, b, c});
-        const double slack = (a + b + c) - 2 * longest;
-        if (slack < -kLargestContradiction * longest && (broken.empty() || broken.back() != triangle_faces[t]))
-            broken.push_back(triangle_faces[t]);
-        if (!(slack > kSmallestSlack * longest)) missing = std::max(missing, kSlackGiven * mean - slack);
-    }
-    if (!broken.empty()) {
-        const std::string sentence =
-            "the metric gives face " + std::to_string(broken[0]) +
-            (broken.size() > 1 ? " and " + std::to_string(broken.size() - 1) + " more" : "") +
-            " edges so unlike those of the neighbours that the mean lengths violate the triangle inequality";
-        throw Error(Cause::bad_mesh, sentence, "bring faces that share an edge to the same scale", std::move(broken));
-    }
-    metric.lengthened = missing;
-    metric.log_unit = std::log(mean);
-    metric.log_lengths.resize(lengths.size());
-    for (std::size_t c = 0; c < lengths.size(); ++c)
-        metric.log_lengths[c] = std::log((lengths[c] + metric.lengthened) / mean);
-    return metric;
 }
 
 /// Angle sums that the iteration has to reach, and which vertices may be scaled.
@@ -267,7 +184,7 @@ double boundary_length(const IntrinsicTriangulation& triangulation, const Eigen:
 /// Faces with a corner that is turned over in the image and was not in the source.
 std::vector<int> flipped_faces(const Mesh& surface, const Positions& corners, const Eigen::VectorXcd& image) {
     const auto reflex = [&](int first, int i) {  // corner i of the quad whose first corner is given
-        const auto p = [&](int corner) { return point_of(corners, first + corner % 4); };
+        const auto p = [&](int corner) { return corner_point(corners, first + corner % 4); };
         const Eigen::Vector3d normal = (p(2) - p(0)).cross(p(3) - p(1));
         return (p(i + 1) - p(i)).cross(p(i + 3) - p(i)).dot(normal) <= 0;
     };
@@ -291,14 +208,14 @@ struct Task {
     const Positions& corners;
     const FlattenOptions& options;
     ScaleFactorProblem problem;
-    Metric metric;
+    TriangleMetric metric;
     IntrinsicTriangulation triangulation;
 };
 
 Task prepare(const Mesh& surface, const Topology& shape, const Positions& corners, const FlattenOptions& options) {
     require_corners(surface, corners);
     ScaleFactorProblem problem = problem_of(surface, shape.boundary_loops[0], options);
-    Metric metric = metric_of(surface, shape, corners);
+    TriangleMetric metric = triangle_metric(surface, shape, corners);
     IntrinsicTriangulation triangulation(metric.triangles, surface.vertex_count(), std::move(metric.log_lengths));
     return {surface, corners, options, std::move(problem), std::move(metric), std::move(triangulation)};
 }

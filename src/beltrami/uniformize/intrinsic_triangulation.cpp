@@ -73,6 +73,11 @@ TriangleAngles triangle_angles(const std::array<double, 3>& log_lengths) {
     return result;
 }
 
+std::array<double, 3> triangle_cosines(const std::array<double, 3>& log_lengths) {
+    const Sides s = sides(log_lengths);
+    return {cosine(s, 0), cosine(s, 1), cosine(s, 2)};
+}
+
 IntrinsicTriangulation::IntrinsicTriangulation(const FaceList& triangles, int vertex_count,
                                                std::vector<double> log_lengths)
     : vertex_count_(vertex_count),
@@ -102,9 +107,8 @@ int IntrinsicTriangulation::make_delaunay(const Eigen::VectorXd& u) {
 template <IntrinsicTriangulation::Rule rule>
 int IntrinsicTriangulation::flip_to_delaunay(const Eigen::VectorXd& u) {
     const auto measure = [&](int triangle) {
-        const int h = 3 * triangle;
-        const Sides s = sides({log_length(h, u), log_length(h + 1, u), log_length(h + 2, u)});
-        for (int k = 0; k < 3; ++k) cosines_[h + k] = cosine(s, k);
+        const std::array<double, 3> cosines = triangle_cosines(log_lengths(triangle, u));
+        std::copy(cosines.begin(), cosines.end(), cosines_.begin() + 3 * triangle);
     };
     // α + β ≤ π exactly when cos α + cos β ≥ 0, which makes sense without the triangle inequality too.
     const auto violates = [&](int h) {
@@ -183,6 +187,25 @@ void IntrinsicTriangulation::flip(int h, double log_length) {
     log_lengths_[h] = log_lengths_[g] = log_length;
     tails_[h] = l, tails_[next(h)] = k, tails_[previous(h)] = i;
     tails_[g] = k, tails_[next(g)] = l, tails_[previous(g)] = j;
+}
+
+IntrinsicTriangulation IntrinsicTriangulation::without(int vertex) const {
+    std::vector<int> numbers(tails_.size(), -1);
+    int count = 0;
+    for (int t = 0; t < triangle_count(); ++t) {
+        const int h = 3 * t;
+        if (tails_[h] == vertex || tails_[h + 1] == vertex || tails_[h + 2] == vertex) continue;
+        for (int k = 0; k < 3; ++k) numbers[h + k] = count++;
+    }
+    IntrinsicTriangulation part;
+    part.vertex_count_ = vertex_count_;
+    for (int h = 0; h < halfedge_count(); ++h) {
+        if (numbers[h] < 0) continue;
+        part.tails_.push_back(tails_[h]);
+        part.twins_.push_back(twins_[h] < 0 ? -1 : numbers[twins_[h]]);
+        part.log_lengths_.push_back(log_lengths_[h]);
+    }
+    return part;
 }
 
 int IntrinsicTriangulation::split_boundary(int h) {

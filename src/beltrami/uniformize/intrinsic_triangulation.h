@@ -21,6 +21,10 @@ struct TriangleAngles {
 /// extension of Springborn, Schröder, Pinkall 2008, "Conformal equivalence of triangle meshes".
 TriangleAngles triangle_angles(const std::array<double, 3>& log_lengths);
 
+/// Cosines of the angles opposite the three lengths, from their logarithms: (b² + c² − a²)/2bc, which makes sense
+/// beyond ±1 too, where lengths violate the triangle inequality.
+std::array<double, 3> triangle_cosines(const std::array<double, 3>& log_lengths);
+
 /// A triangulation of a surface that knows lengths only, so that its edges can be flipped without moving the surface.
 ///
 /// Half-edge h = 3t + k is edge k of triangle t, from tail(h) to head(h), the triangle on its left. Edges may join a
@@ -48,10 +52,14 @@ class IntrinsicTriangulation {
     double log_length(int h, const Eigen::VectorXd& u) const {
         return log_lengths_[h] + 0.5 * (u[tails_[h]] + u[head(h)]);
     }
+    /// Logarithms of a triangle's lengths in the metric scaled by u.
+    std::array<double, 3> log_lengths(int triangle, const Eigen::VectorXd& u) const {
+        const int h = 3 * triangle;
+        return {log_length(h, u), log_length(h + 1, u), log_length(h + 2, u)};
+    }
     /// Angles of a triangle in the metric scaled by u; entry k belongs to half-edge 3t + k and lies opposite it.
     TriangleAngles angles(int triangle, const Eigen::VectorXd& u) const {
-        const int h = 3 * triangle;
-        return triangle_angles({log_length(h, u), log_length(h + 1, u), log_length(h + 2, u)});
+        return triangle_angles(log_lengths(triangle, u));
     }
 
     /// Flips edges, new lengths measured by unfolding the two triangles, until the triangulation is Delaunay: the
@@ -64,6 +72,18 @@ class IntrinsicTriangulation {
     /// Springborn, Crane 2021, "Discrete conformal equivalence of polyhedral surfaces". @return the number of flips
     int make_delaunay(const Eigen::VectorXd& u);
 
+    /// The logarithm of the length that an edge has after a flip, by Ptolemy's relation.
+    /// @pre two different triangles meet there
+    double ptolemy_log_length(int h) const { return flipped_log_length(h, Rule::ptolemy); }
+
+    /// Replaces an edge by the other diagonal of its two triangles: with h = i→j, apex k on its left and l on its
+    /// right, h becomes l→k. The four sides of the quadrilateral move to other half-edges of the two triangles.
+    /// @pre two different triangles meet there
+    void flip(int h, double log_length);
+
+    /// The triangulation less the triangles at a vertex, whose other edges then are boundary.
+    IntrinsicTriangulation without(int vertex) const;
+
     /// Cuts the triangle at a boundary half-edge in two, from its apex to the foot of the perpendicular (to the middle
     /// of the edge if the foot is not well inside it): the surface stays what it is.
     /// @return the new vertex, numbered vertex_count() of before. The half-edge then ends there.
@@ -73,11 +93,11 @@ class IntrinsicTriangulation {
     enum class Rule { unfold, ptolemy };
     template <Rule rule>
     int flip_to_delaunay(const Eigen::VectorXd& u);
+    IntrinsicTriangulation() = default;
     double flipped_log_length(int h, Rule rule) const;
-    void flip(int h, double log_length);
     void glue(int h, int twin);
 
-    int vertex_count_;
+    int vertex_count_ = 0;
     std::vector<int> tails_;
     std::vector<int> twins_;
     std::vector<double> log_lengths_;
