@@ -26,7 +26,7 @@
 #include <beltrami/base/parallel.h>
 #include <beltrami/beltrami.h>
 #include <beltrami/io/number_lists.h>
-#include <beltrami/linear/symmetric_solver.h>
+#include <beltrami/linear/linear_backend.h>
 #include <beltrami/report/timing.h>
 #include <beltrami/solve/beltrami_solver.h>
 

@@ -20,7 +20,7 @@
 #include <vector>
 
 #include <beltrami/beltrami.h>
-#include <beltrami/linear/symmetric_solver.h>
+#include <beltrami/linear/linear_backend.h>
 #include <beltrami/report/timing.h>
 
 namespace {

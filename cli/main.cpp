@@ -11,7 +11,7 @@
 
 #include <beltrami/base/error.h>
 #include <beltrami/io/atomic_file.h>
-#include <beltrami/linear/symmetric_solver.h>
+#include <beltrami/linear/linear_backend.h>
 
 #include "command.h"
 

@@ -11,11 +11,11 @@ namespace {
 
 /// The map nearest to having ∂f = @p target and ∂̄f = 0 at every sample; fixed vertices keep their value of @p f.
 /// @param laplacian with the vertices @p held eliminated
-void fit(const Operators& operators, const detail::Laplacian& laplacian, const std::vector<Freedom>& held,
+void fit(const Operators& operators, const detail::Laplacian& laplacian, const std::vector<char>& held,
          const Eigen::VectorXcd& target, Eigen::VectorXcd& f) {
     Eigen::VectorXcd base = f;
     for (Eigen::Index v = 0; v < f.size(); ++v)
-        if (held[v] != Freedom::fixed) base[v] = 0;
+        if (!held[v]) base[v] = 0;
     Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(f.size(), 2);
     for (int s = 0; s < operators.sample_count(); ++s) {
         const auto [d_z, d_zbar] = operators.derivatives(s, base);
@@ -29,7 +29,7 @@ void fit(const Operators& operators, const detail::Laplacian& laplacian, const s
     }
     const Eigen::MatrixXd solution = laplacian.solve(forces);
     for (Eigen::Index v = 0; v < f.size(); ++v)
-        if (held[v] != Freedom::fixed) f[v] = {solution(v, 0), solution(v, 1)};
+        if (!held[v]) f[v] = {solution(v, 0), solution(v, 1)};
 }
 
 }  // namespace
@@ -46,8 +46,8 @@ BaselineMap arap_baseline(const Surface& source, const BoundaryCondition& bounda
     if (unprescribed_boundary(boundary, source).empty())
         scale = std::sqrt(detail::enclosed_area(source, boundary) / area);
 
-    std::vector<Freedom> held = freedoms(boundary, source);
-    if (boundary.empty()) held[source.topology.boundary_loops[0][0]] = Freedom::fixed;
+    std::vector<char> held = detail::fixed_vertices(freedoms(boundary, source));
+    if (boundary.empty()) held[source.topology.boundary_loops[0][0]] = 1;
     const detail::Laplacian laplacian(operators, held);
     ++result.factorizations;
 

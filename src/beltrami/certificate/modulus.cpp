@@ -6,8 +6,8 @@
 #include <numbers>
 #include <queue>
 
-#include <beltrami/certificate/dirichlet_form.h>
 #include <beltrami/plane/polygon.h>
+#include <beltrami/solve/laplacian.h>
 
 namespace beltrami {
 
@@ -19,7 +19,7 @@ constexpr double kOnSide = 1e-12;
 /// Largest cosine of an angle that is taken for a right one.
 constexpr double kRight = 1e-9;
 
-using detail::DirichletForm;
+using detail::Laplacian;
 
 /// The energy of the harmonic function that is 0 on some vertices and 1 on others, free elsewhere.
 double condenser_energy(const Operators& operators, const std::vector<int>& at_zero, const std::vector<int>& at_one,
@@ -31,7 +31,7 @@ double condenser_energy(const Operators& operators, const std::vector<int>& at_z
         held[v] = 1;
         u[v] = 1;
     }
-    const DirichletForm form(operators, {}, held);
+    const Laplacian form(operators, held);
     factorizations += form.factorization_count();
     u -= form.solve(form.apply(u));
     return form.energy(u);
@@ -114,7 +114,7 @@ double period_energy(const Surface& ring, const Operators& operators, int& facto
     }
     std::vector<char> held(static_cast<std::size_t>(operators.vertex_count), 0);
     held[operators.vertices.front()] = 1;
-    const DirichletForm form(operators, {}, held);
+    const Laplacian form(operators, held);
     factorizations += form.factorization_count();
     // Samples of a face have its corners in order.
     const auto gradient_of = [&](int s, const Eigen::VectorXd& u) {

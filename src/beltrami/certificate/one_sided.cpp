@@ -1,13 +1,14 @@
 #include <beltrami/certificate/one_sided.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
 
 #include <beltrami/base/error.h>
 #include <beltrami/base/parallel.h>
-#include <beltrami/linear/element_assembly.h>
+#include <beltrami/linear/element_system.h>
 
 namespace beltrami {
 
@@ -21,6 +22,8 @@ constexpr double kShortest = 0.05;  // step of the line search
 constexpr double kStage = 0.6, kMargin = 0.15;
 /// Where a stage gains too little the next ones ask for less, so often.
 constexpr int kGentler = 2;
+/// Unknowns of one sample: of six nodes.
+constexpr std::size_t kMostUnknowns = 12;
 /// Maps that fold begin here.
 constexpr double kFromFolds = 0.95;
 
@@ -85,21 +88,19 @@ bool OneSidedDescent::descend(QuadraticMap& map, const std::vector<double>& boun
     for (std::size_t n = 0; n < unknown.size(); ++n)
         if (!held_[n] && !faces_at_[n].empty() &&
             std::all_of(faces_at_[n].begin(), faces_at_[n].end(), [&](int f) { return chosen[f]; }))
-            unknown[n] = 2 * count++;
+            unknown[n] = count++;
     if (count == 0) return false;
     std::vector<int> offsets{0}, unknowns;
     for (std::size_t f = 0; f < chosen.size(); ++f) {
         const auto nodes = samples.stencil(space_.first_sample(static_cast<int>(f)));
         if (std::none_of(nodes.begin(), nodes.end(), [&](int n) { return unknown[n] >= 0; })) continue;
         faces.push_back(static_cast<int>(f));
-        for (const int n : nodes)
-            for (int part = 0; part < 2; ++part) unknowns.push_back(unknown[n] < 0 ? -1 : unknown[n] + part);
+        for (const int n : nodes) unknowns.push_back(unknown[n]);
         offsets.push_back(static_cast<int>(unknowns.size()));
     }
-    const ElementAssembly assembly(std::move(offsets), std::move(unknowns), 2 * count);
-    SymmetricSolver solver(assembly.pattern(), kSteps, 2);
-    const auto size = solver.matrix().nonZeros();
-    Eigen::VectorXd squares(size), damping(size), force(2 * count);
+    ElementSystem system(std::move(offsets), std::move(unknowns), count, kSteps, 2);
+    ElementSystem::Values squares(system), damping(system);
+    Eigen::VectorXd force(2 * count);
     double mean = 0;
     for (const double weight : samples.weights) mean += weight / samples.sample_count();
 
@@ -133,13 +134,12 @@ bool OneSidedDescent::descend(QuadraticMap& map, const std::vector<double>& boun
     double lambda = kFirstDamping;
     bool moved = false;
     for (int step = 0; step < kSteps; ++step) {
-        squares.setZero();
-        damping.setZero();
+        squares.clear();
+        damping.clear();
         force.setZero();
         State before;
         for (std::size_t i = 0; i < faces.size(); ++i) {
-            const auto own = assembly.unknowns(static_cast<int>(i));
-            const auto slots = assembly.slots(static_cast<int>(i));
+            const auto own = system.nodes(static_cast<int>(i));
             for (int s = space_.first_sample(faces[i]); s < space_.first_sample(faces[i] + 1); ++s) {
                 const auto [dz, dzbar] = samples.derivatives(s, map);
                 const auto g = samples.gradient(s);
@@ -150,7 +150,7 @@ bool OneSidedDescent::descend(QuadraticMap& map, const std::vector<double>& boun
                 before.largest = std::max(before.largest, b / std::max(a, 1e-300));
                 before.upright += a > b;
                 const int n = static_cast<int>(g.size());
-                std::array<double, 12> row{};
+                std::array<double, kMostUnknowns> row{};
                 if (over > 0) {
                     const Complex to_b = std::conj(dzbar) / b, to_a = a > 0 ? std::conj(dz) / a : Complex(0);
                     const double root = std::sqrt(scale[s]);
@@ -158,31 +158,33 @@ bool OneSidedDescent::descend(QuadraticMap& map, const std::vector<double>& boun
                         const Complex c = 0.5 * (to_b * g[j] - inner * to_a * std::conj(g[j])) / root;
                         row[2 * j] = c.real();
                         row[2 * j + 1] = -c.imag();
-                        if (own[2 * j] >= 0)
+                        if (own[j] >= 0)
                             for (int part = 0; part < 2; ++part)
-                                force[own[2 * j + part]] += weight * row[2 * j + part] * over / root;
+                                force[2 * own[j] + part] += weight * row[2 * j + part] * over / root;
                     }
                 }
                 const double stiff = 0.5 * weight / scale[s];
-                const int* slot = slots.data();
+                std::array<double, kMostUnknowns*(kMostUnknowns + 1) / 2> square, damp;
+                std::size_t entries = 0;
                 for (int j = 0; j < 2 * n; ++j)
-                    for (int l = 0; l <= j; ++l, ++slot) {
-                        if (*slot < 0) continue;
-                        if (over > 0) squares[*slot] += weight * row[j] * row[l];
-                        if (j % 2 == l % 2) damping[*slot] += stiff * std::real(std::conj(g[j / 2]) * g[l / 2]);
+                    for (int l = 0; l <= j; ++l, ++entries) {
+                        square[entries] = weight * row[j] * row[l];
+                        damp[entries] = j % 2 == l % 2 ? stiff * std::real(std::conj(g[j / 2]) * g[l / 2]) : 0.0;
                     }
+                if (over > 0) system.add(static_cast<int>(i), {square.data(), entries}, squares);
+                system.add(static_cast<int>(i), {damp.data(), entries}, damping);
             }
         }
         if (before.largest <= target || !(before.energy > 0) || !std::isfinite(before.energy)) break;
         bool found = false;
         QuadraticMap next;
         for (int trial = 0; trial < kDampings && !found; ++trial) {
-            solver.matrix().coeffs() = (squares + lambda * damping).array();
+            system.set(squares, lambda, damping);
             Eigen::VectorXd direction;
             try {
-                solver.factorize();
+                system.factorize();
                 ++factorizations_;
-                direction = -solver.solve(force);
+                direction = -system.solve(force);
             } catch (const Error&) {
                 lambda *= kMoreDamping;
                 continue;
@@ -190,7 +192,8 @@ bool OneSidedDescent::descend(QuadraticMap& map, const std::vector<double>& boun
             for (double t = 1; t > kShortest && !found; t /= 2) {
                 next = map;
                 for (std::size_t n = 0; n < unknown.size(); ++n)
-                    if (unknown[n] >= 0) next[n] += t * Complex(direction[unknown[n]], direction[unknown[n] + 1]);
+                    if (unknown[n] >= 0)
+                        next[n] += t * Complex(direction[2 * unknown[n]], direction[2 * unknown[n] + 1]);
                 const State after = look(next);
                 found = after.upright >= before.upright && after.energy < before.energy * (1 - 0.1 * t);
             }

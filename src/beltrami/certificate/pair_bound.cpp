@@ -5,18 +5,18 @@
 
 #include <beltrami/base/error.h>
 #include <beltrami/certificate/branched_cover.h>
-#include <beltrami/certificate/dirichlet_form.h>
 #include <beltrami/certificate/modulus.h>
 #include <beltrami/linear/decomposition.h>
 #include <beltrami/mesh/subdivide.h>
 #include <beltrami/meshing/polygon_fill.h>
 #include <beltrami/operators/distortion.h>
+#include <beltrami/solve/laplacian.h>
 
 namespace beltrami {
 
 namespace {
 
-using detail::DirichletForm;
+using detail::Laplacian;
 
 /// A triangulation of the image has at least so many triangles.
 constexpr int kLeastFill = 400;
@@ -96,7 +96,7 @@ std::vector<char> held_vertices_of(const Operators& operators, const std::vector
 /// Lanczos' iteration for the largest eigenvalue of L_S⁻¹ Wᵀ L_T⁻¹ W, in the energy product of L_S.
 class Lanczos {
   public:
-    Lanczos(const DirichletForm& source, const DirichletForm& image, const BoundaryPairing& pairing)
+    Lanczos(const Laplacian& source, const Laplacian& image, const BoundaryPairing& pairing)
         : source_(source), image_(image), pairing_(pairing) {}
 
     /// The Ritz vector v after as many steps as needed.
@@ -168,7 +168,7 @@ class Lanczos {
         return v;
     }
 
-    const DirichletForm &source_, &image_;
+    const Laplacian &source_, &image_;
     const BoundaryPairing& pairing_;
     std::vector<Eigen::VectorXd> basis_, applied_;
     std::vector<double> diagonal_, beside_, values_;
@@ -267,8 +267,8 @@ PairBound pair_bound(const Surface& source, const BoundaryImage& image, const st
                      const PairBoundOptions& options) {
     std::vector<signed char> signs;
     if (!branches.empty()) signs = branched_signs(source, branches);
-    const DirichletForm of_source(source.operators, signs, held_vertices_of(source.operators, branches)),
-        of_image(image.operators, signs, held_vertices_of(image.operators, branches));
+    const Laplacian of_source(source.operators, held_vertices_of(source.operators, branches), 1, signs),
+        of_image(image.operators, held_vertices_of(image.operators, branches), 1, signs);
     const BoundaryPairing pairing = pairing_of(source, image, signs);
     PairBound result;
     result.factorizations = of_source.factorization_count() + of_image.factorization_count();

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <vector>
 
-#include <beltrami/linear/element_assembly.h>
 #include <beltrami/solve/beltrami_solver.h>
+#include <beltrami/solve/laplacian.h>
 
 namespace beltrami {
 
@@ -77,42 +77,20 @@ std::vector<double> jumps_across_strip(const Surface& surface, int outer_loop) {
 /// The function of period ±1 with the least Dirichlet energy: the solution v of min Σ A |∇(v + jumps)|².
 Eigen::VectorXd periodic_harmonic(const Surface& surface, const std::vector<double>& jumps) {
     const Operators& operators = surface.operators;
-    std::vector<int> unknown(operators.vertex_count, -1);
-    int count = 0;
-    const int held = surface.topology.boundary_loops[0][0];
-    for (const int v : operators.vertices)
-        if (v != held) unknown[v] = 0;
-    for (int& u : unknown)
-        if (u == 0) u = count++;
-    std::vector<int> unknowns;
-    unknowns.reserve(operators.vertices.size());
-    for (const int v : operators.vertices) unknowns.push_back(unknown[v]);
-    ElementAssembly assembly(operators.offsets, std::move(unknowns), count);
-    SymmetricSolver solver(assembly.pattern(), 1);
-    double* values = solver.matrix().valuePtr();
-    Eigen::VectorXd rhs = Eigen::VectorXd::Zero(count);
+    std::vector<char> held(static_cast<std::size_t>(operators.vertex_count), 0);
+    held[surface.topology.boundary_loops[0][0]] = 1;
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(operators.vertex_count);
     for (int s = 0; s < operators.sample_count(); ++s) {
+        const auto stencil = operators.stencil(s);
         const auto gradient = operators.gradient(s);
-        const int* slot = assembly.slots(s).data();
-        const double weight = operators.weights[s];
-        Complex slope = 0;
         const double* jump = &jumps[surface.mesh.faces.first_corner(operators.faces[s])];
-        for (std::size_t i = 0; i < gradient.size(); ++i) {
-            slope += jump[i] * gradient[i];
-            for (std::size_t j = 0; j <= i; ++j, ++slot)
-                if (*slot >= 0) values[*slot] += weight * std::real(std::conj(gradient[i]) * gradient[j]);
-        }
+        Complex slope = 0;
+        for (std::size_t i = 0; i < gradient.size(); ++i) slope += jump[i] * gradient[i];
         if (slope == 0.0) continue;
         for (std::size_t i = 0; i < gradient.size(); ++i)
-            if (assembly.unknowns(s)[i] >= 0)
-                rhs[assembly.unknowns(s)[i]] -= weight * std::real(std::conj(gradient[i]) * slope);
+            force[stencil[i]] -= operators.weights[s] * std::real(std::conj(gradient[i]) * slope);
     }
-    solver.factorize();
-    const Eigen::VectorXd solution = solver.solve(rhs);
-    Eigen::VectorXd v = Eigen::VectorXd::Zero(operators.vertex_count);
-    for (int i = 0; i < operators.vertex_count; ++i)
-        if (unknown[i] >= 0) v[i] = solution[unknown[i]];
-    return v;
+    return detail::Laplacian(operators, held).solve(force);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <beltrami/differentials/dimension.h>
 #include <beltrami/linear/decomposition.h>
 #include <beltrami/linear/dense.h>
-#include <beltrami/linear/element_assembly.h>
+#include <beltrami/solve/laplacian.h>
 
 namespace beltrami {
 
@@ -17,45 +17,6 @@ namespace {
 /// Products of harmonic measures whose Gram matrix has a smaller eigenvalue, relative to the largest, do not span.
 /// Mesh noise is about 1e-3 in the squares.
 constexpr double kLeastEigenvalue = 3e-3;
-
-/// The harmonic function with the given values at fixed vertices and no flux through the rest of the boundary.
-Eigen::VectorXd harmonic(const Surface& source, const Eigen::VectorXd& values, const std::vector<char>& fixed) {
-    const Operators& operators = source.operators;
-    std::vector<int> unknown(operators.vertex_count, -1);
-    for (const int v : operators.vertices)
-        if (!fixed[v]) unknown[v] = 0;
-    int count = 0;
-    for (int& u : unknown)
-        if (u == 0) u = count++;
-    Eigen::VectorXd result = values;
-    if (count == 0) return result;
-    std::vector<int> unknowns;
-    unknowns.reserve(operators.vertices.size());
-    for (const int v : operators.vertices) unknowns.push_back(unknown[v]);
-    const ElementAssembly assembly(operators.offsets, std::move(unknowns), count);
-    SymmetricSolver solver(assembly.pattern(), 1);
-    double* entries = solver.matrix().valuePtr();
-    Eigen::MatrixXd rhs = Eigen::MatrixXd::Zero(count, 1);
-    for (int s = 0; s < operators.sample_count(); ++s) {
-        const auto stencil = operators.stencil(s);
-        const auto gradient = operators.gradient(s);
-        const int* slot = assembly.slots(s).data();
-        for (std::size_t i = 0; i < stencil.size(); ++i)
-            for (std::size_t j = 0; j < stencil.size(); ++j) {
-                const double entry = operators.weights[s] * std::real(gradient[i] * std::conj(gradient[j]));
-                const int to = unknown[stencil[i]];
-                if (to >= 0 && unknown[stencil[j]] < 0) rhs(to, 0) -= entry * values[stencil[j]];
-                if (j > i) continue;
-                if (*slot >= 0) entries[*slot] += entry;
-                ++slot;
-            }
-    }
-    solver.factorize();
-    const Eigen::MatrixXd solution = solver.solve(rhs);
-    for (int v = 0; v < operators.vertex_count; ++v)
-        if (unknown[v] >= 0) result[v] = solution(unknown[v], 0);
-    return result;
-}
 
 /// ∫|∇u|² = 4 ∫|∂u|².
 double energy(const Operators& operators, const Eigen::VectorXd& u) {
@@ -104,7 +65,7 @@ QuadrilateralSpace quadrilateral_space(const Surface& source, const std::array<i
         std::vector<char> fixed(operators.vertex_count, 0);
         for (const int v : sides[zero]) fixed[v] = 1;
         for (const int v : sides[one]) fixed[v] = 1, values[v] = 1;
-        return harmonic(source, values, fixed);
+        return Eigen::VectorXd(detail::Laplacian(operators, fixed).extend(values));
     };
     const Eigen::VectorXd u = across(3, 1), v = across(0, 2);
     QuadrilateralSpace result{TabulatedSpace(Eigen::MatrixXcd(operators.sample_count(), 0)), {}, 0, 0, 0};
@@ -132,11 +93,12 @@ TabulatedSpace one_form_products(const Surface& source) {
                     "take another space of differentials");
     const Operators& operators = source.operators;
     const Eigen::Index samples = operators.sample_count();
+    const detail::Laplacian laplacian(operators, source.topology.on_boundary);
     Eigen::MatrixXcd forms(samples, holes);
     for (int i = 0; i < holes; ++i) {
         Eigen::VectorXd values = Eigen::VectorXd::Zero(operators.vertex_count);
         for (const int v : loops[i + 1]) values[v] = 1;
-        const Eigen::VectorXcd u = harmonic(source, values, source.topology.on_boundary).cast<Complex>();
+        const Eigen::VectorXcd u = laplacian.extend(values).cast<Complex>();
         for (int s = 0; s < samples; ++s) forms(s, i) = 2.0 * operators.derivatives(s, u)[0];
     }
     const auto areas = Eigen::Map<const Eigen::VectorXd>(operators.weights.data(), samples);

@@ -17,16 +17,9 @@ namespace {
 constexpr double kFitTolerance = 1e-5;
 constexpr int kMostFitSteps = 500;
 
-std::vector<Freedom> one_vertex_held(const Surface& source) {
-    std::vector<Freedom> held = freedoms({}, source);
-    held[source.topology.boundary_loops[0][0]] = Freedom::fixed;
-    return held;
-}
-
-std::vector<Freedom> boundary_held(const Surface& source) {
-    std::vector<Freedom> held = freedoms({}, source);
-    for (const auto& loop : source.topology.boundary_loops)
-        for (const int v : loop) held[v] = Freedom::fixed;
+std::vector<char> one_vertex_held(const Surface& source) {
+    std::vector<char> held(static_cast<std::size_t>(source.mesh.vertex_count()), 0);
+    held[source.topology.boundary_loops[0][0]] = 1;
     return held;
 }
 
@@ -166,7 +159,7 @@ void add(HarmonicForms::Form& to, double factor, const HarmonicForms::Form& form
 HarmonicForms::HarmonicForms(const Surface& source, std::vector<std::string>& warnings)
     : operators_(source.operators),
       neumann_(source.operators, one_vertex_held(source), 10),
-      dirichlet_(source.operators, boundary_held(source)) {
+      dirichlet_(source.operators, source.topology.on_boundary) {
     if (source.topology.genus != 0)
         throw Error(Cause::bad_mesh,
                     "the surface has genus " + std::to_string(source.topology.genus) +

@@ -13,8 +13,8 @@
 #include <beltrami/base/error.h>
 #include <beltrami/linear/backend.h>
 #include <beltrami/linear/dense.h>
+#include <beltrami/linear/linear_backend.h>
 #include <beltrami/linear/supernodal_factor.h>
-#include <beltrami/linear/symmetric_solver.h>
 #include <beltrami/linear/vector_gram.h>
 
 extern "C" void dsyrk_(const char* uplo, const char* trans, const int* n, const int* k, const double* alpha,

@@ -2,7 +2,7 @@
 
 #include <beltrami/linear/backend.h>
 #include <beltrami/linear/dense.h>
-#include <beltrami/linear/symmetric_solver.h>
+#include <beltrami/linear/linear_backend.h>
 
 namespace beltrami {
 

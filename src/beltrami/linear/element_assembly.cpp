@@ -1,16 +1,18 @@
 #include <beltrami/linear/element_assembly.h>
 
 #include <algorithm>
+#include <utility>
 
 #include <beltrami/base/parallel.h>
 
-namespace beltrami {
+namespace beltrami::detail {
 
 ElementAssembly::ElementAssembly(std::vector<int> offsets, std::vector<int> unknowns, int unknown_count)
     : offsets_(std::move(offsets)), unknowns_(std::move(unknowns)), unknown_count_(unknown_count) {
     const int elements = element_count();
     slot_offsets_.resize(static_cast<std::size_t>(elements) + 1, 0);
-    std::vector<std::size_t> starts(static_cast<std::size_t>(unknown_count_) + 1, 0);
+    std::vector<std::size_t> starts(static_cast<std::size_t>(unknown_count_) + 1, 1);  // every diagonal
+    starts[0] = 0;
     for (int e = 0; e < elements; ++e) {
         const auto u = this->unknowns(e);
         slot_offsets_[e + 1] = slot_offsets_[e] + u.size() * (u.size() + 1) / 2;
@@ -23,6 +25,7 @@ ElementAssembly::ElementAssembly(std::vector<int> offsets, std::vector<int> unkn
     // Rows of every column with repetitions, then sorted and made unique column by column.
     std::vector<int> repeated(starts.back());
     std::vector<std::size_t> fill(starts.begin(), starts.end() - 1);
+    for (int c = 0; c < unknown_count_; ++c) repeated[fill[c]++] = c;
     for (int e = 0; e < elements; ++e) {
         const auto u = this->unknowns(e);
         for (std::size_t i = 0; i < u.size(); ++i)
@@ -64,14 +67,4 @@ ElementAssembly::ElementAssembly(std::vector<int> offsets, std::vector<int> unkn
     });
 }
 
-SymmetricSolver::Matrix ElementAssembly::pattern() const {
-    SymmetricSolver::Matrix matrix(unknown_count_, unknown_count_);
-    matrix.makeCompressed();
-    matrix.resizeNonZeros(static_cast<Eigen::Index>(rows_.size()));
-    std::copy(columns_.begin(), columns_.end(), matrix.outerIndexPtr());
-    std::copy(rows_.begin(), rows_.end(), matrix.innerIndexPtr());
-    matrix.coeffs().setZero();
-    return matrix;
-}
-
-}  // namespace beltrami
+}  // namespace beltrami::detail

@@ -8,7 +8,7 @@
 #include <beltrami/base/error.h>
 #include <beltrami/linear/backend.h>
 
-namespace beltrami {
+namespace beltrami::detail {
 
 namespace {
 
@@ -34,7 +34,7 @@ double infinity_norm(const SymmetricSolver::Matrix& lower) {
 struct SymmetricSolver::Backend {
     Matrix lower;
     int expected_factorizations;
-    std::unique_ptr<detail::CholeskyBackend> cholesky;
+    std::unique_ptr<CholeskyBackend> cholesky;
     int factorizations = 0;
     bool factorized = false;  ///< the factor belongs to the present values
     bool has_factor = false;  ///< … or to earlier ones
@@ -46,7 +46,7 @@ struct SymmetricSolver::Backend {
         Matrix shifted = lower;
         const double scale = lower.diagonal().cwiseAbs().maxCoeff();
         for (int column = 0; column < shifted.outerSize(); ++column) shifted.coeffRef(column, column) += 1e-10 * scale;
-        auto inverse = detail::make_backend(shifted, 1, 1);
+        auto inverse = make_backend(shifted, 1, 1);
         if (!(scale > 0) || !inverse->factorize(shifted)) return {};
         Eigen::MatrixXd vector(lower.rows(), 1), next;
         for (Eigen::Index i = 0; i < vector.rows(); ++i)
@@ -81,8 +81,7 @@ SymmetricSolver::SymmetricSolver(Matrix lower, int expected_factorizations, int 
     lower.makeCompressed();
     backend_->lower.swap(lower);  // Eigen's sparse matrices are not moved by assignment
     backend_->expected_factorizations = expected_factorizations;
-    if (backend_->lower.rows() > 0)
-        backend_->cholesky = detail::make_backend(backend_->lower, expected_factorizations, block);
+    if (backend_->lower.rows() > 0) backend_->cholesky = make_backend(backend_->lower, expected_factorizations, block);
 }
 
 SymmetricSolver::~SymmetricSolver() = default;
@@ -205,4 +204,4 @@ bool SymmetricSolver::solve_near(const Eigen::MatrixXd& rhs, Eigen::MatrixXd& so
     return solution.allFinite();
 }
 
-}  // namespace beltrami
+}  // namespace beltrami::detail

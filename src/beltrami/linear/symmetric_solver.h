@@ -4,10 +4,10 @@
 #include <memory>
 #include <vector>
 
-namespace beltrami {
+namespace beltrami::detail {
 
-/// A sparse symmetric positive definite system whose pattern stays while its values change.
-/// Only the lower triangle is stored. The backend (CHOLMOD, or Eigen's Cholesky) is hidden.
+/// A sparse symmetric positive definite system whose pattern stays while its values change, private to the layer:
+/// others take ElementSystem. Only the lower triangle is stored. The backend (CHOLMOD, or Eigen's Cholesky) is hidden.
 ///
 ///     SymmetricSolver solver(pattern, 10);      // ordering and symbolic analysis, once
 ///     solver.matrix().coeffs() = …;             // new values, as often as you like:
@@ -34,8 +34,7 @@ class SymmetricSolver {
     const Matrix& matrix() const;
 
     /// @throw Error not_solved if the matrix is not numerically positive definite; indices() are the rows that carry
-    /// the
-    ///        null vector ("unconstrained"), the largest first.
+    ///        the null vector ("unconstrained"), the largest first.
     void factorize();
 
     /// Solves for every column of @p rhs (#rows × #rhs). One step of iterative refinement is taken where the residual
@@ -59,7 +58,4 @@ class SymmetricSolver {
     std::unique_ptr<Backend> backend_;
 };
 
-/// Name and version of the backend this library was built with, e.g. "CHOLMOD 3.0.14".
-const char* linear_backend();
-
-}  // namespace beltrami
+}  // namespace beltrami::detail

@@ -8,7 +8,7 @@
 
 #include <beltrami/base/error.h>
 #include <beltrami/base/parallel.h>
-#include <beltrami/linear/element_assembly.h>
+#include <beltrami/linear/element_system.h>
 
 namespace beltrami {
 
@@ -32,8 +32,7 @@ struct BeltramiSolver::Implementation {
     bool decoupled;
     std::vector<int> first_unknown;  // #V, −1 if fixed; a free vertex of the coupled system has this one and the next
     std::vector<int> owner;          // unknown → vertex
-    std::unique_ptr<ElementAssembly> assembly;
-    std::unique_ptr<SymmetricSolver> solver;
+    std::unique_ptr<ElementSystem> system;
     Eigen::VectorXcd nu, directions;
 
     Implementation(const Surface& source, std::vector<Freedom> f, int expected_factorizations)
@@ -60,12 +59,11 @@ struct BeltramiSolver::Implementation {
             }
             offsets.push_back(static_cast<int>(unknowns.size()));
         }
-        assembly =
-            std::make_unique<ElementAssembly>(std::move(offsets), std::move(unknowns), static_cast<int>(owner.size()));
-        solver = std::make_unique<SymmetricSolver>(assembly->pattern(), expected_factorizations);
+        system = std::make_unique<ElementSystem>(std::move(offsets), std::move(unknowns),
+                                                 static_cast<int>(owner.size()), expected_factorizations);
     }
 
-    /// D of every unknown of an element, in the order of assembly->unknowns; returns their number.
+    /// D of every unknown of an element, in the order of system->nodes; returns their number.
     int element(int sample, std::array<Complex, kMostUnknowns>& d) const {
         int count = 0;
         const auto stencil = operators.stencil(sample);
@@ -92,24 +90,22 @@ struct BeltramiSolver::Implementation {
 
     /// @param extra_diagonal see factorize; may be empty
     void assemble(const Eigen::VectorXd& extra_diagonal) {
-        auto& matrix = solver->matrix();
-        matrix.coeffs().setZero();
-        double* values = matrix.valuePtr();
+        system->clear();
         std::array<Complex, kMostUnknowns> d;
+        std::array<double, kMostUnknowns*(kMostUnknowns + 1) / 2> lower;
         for (int s = 0; s < operators.sample_count(); ++s) {
             const int count = element(s, d);
             const double w = weight(s);
-            const int* slot = assembly->slots(s).data();
+            double* entry = lower.data();
             for (int i = 0; i < count; ++i)
-                for (int j = 0; j <= i; ++j, ++slot)
-                    if (*slot >= 0) values[*slot] += w * (d[i].real() * d[j].real() + d[i].imag() * d[j].imag());
+                for (int j = 0; j <= i; ++j, ++entry)
+                    *entry = w * (d[i].real() * d[j].real() + d[i].imag() * d[j].imag());
+            system->add(s, {lower.data(), entry});
         }
         if (extra_diagonal.size() == 0) return;
         for (int v = 0; v < operators.vertex_count; ++v)
-            if (freedom[v] == Freedom::sliding) {
-                double& diagonal = values[matrix.outerIndexPtr()[first_unknown[v]]];  // first of its column
-                diagonal += std::max(extra_diagonal[v], -0.3 * diagonal);
-            }
+            if (const int u = first_unknown[v]; freedom[v] == Freedom::sliding)
+                system->add_to_diagonal(u, std::max(extra_diagonal[v], -0.3 * system->diagonal(u)));
     }
 
     /// The part of a map that is not solved for: fixed and sliding vertices, 0 at free ones.
@@ -129,7 +125,7 @@ struct BeltramiSolver::Implementation {
     /// −Re[(DB)^H W (D base + offset)]; real and imaginary part as two columns where they decouple.
     /// @param offset #S, or empty for 0
     Eigen::MatrixXd right_hand_side(const Eigen::VectorXcd& base, const Eigen::VectorXcd& offset = {}) const {
-        Eigen::MatrixXd rhs = Eigen::MatrixXd::Zero(assembly->unknown_count(), decoupled ? 2 : 1);
+        Eigen::MatrixXd rhs = Eigen::MatrixXd::Zero(system->unknown_count(), decoupled ? 2 : 1);
         std::array<Complex, kMostUnknowns> d;
         for (int s = 0; s < operators.sample_count(); ++s) {
             const auto stencil = operators.stencil(s);
@@ -137,7 +133,7 @@ struct BeltramiSolver::Implementation {
             bool any = more != 0.0;
             for (const int v : stencil) any = any || base[v] != 0.0;
             if (!any) continue;
-            const auto unknowns = assembly->unknowns(s);
+            const auto unknowns = system->nodes(s);
             const int count = element(s, d);
             const double w = weight(s);
             if (decoupled) {
@@ -165,7 +161,7 @@ struct BeltramiSolver::Implementation {
     void subtract_offsets(const Eigen::MatrixXcd& offsets, int first, int last, Eigen::MatrixXd& rhs) const {
         std::array<Complex, kMostUnknowns> d;
         for (int s = 0; s < operators.sample_count(); ++s) {
-            const auto unknowns = assembly->unknowns(s);
+            const auto unknowns = system->nodes(s);
             const int count = element(s, d);
             for (int j = 0; j < count; ++j) d[j] *= weight(s);
             for (int column = first; column < last; ++column) {
@@ -186,7 +182,7 @@ struct BeltramiSolver::Implementation {
 
     /// The unknowns of a map.
     Eigen::MatrixXd pack(const Eigen::VectorXcd& map, const Eigen::VectorXcd& base) const {
-        Eigen::MatrixXd y(assembly->unknown_count(), decoupled ? 2 : 1);
+        Eigen::MatrixXd y(system->unknown_count(), decoupled ? 2 : 1);
         for (int v = 0; v < operators.vertex_count; ++v) {
             const int u = first_unknown[v];
             if (u < 0) continue;
@@ -222,7 +218,7 @@ struct BeltramiSolver::Implementation {
     /// Factorises the assembled matrix; failures name vertices instead of unknowns.
     void factorize() {
         try {
-            solver->factorize();
+            system->factorize();
         } catch (const Error& error) {
             std::vector<int> vertices;
             for (const int unknown : error.indices()) vertices.push_back(owner[unknown]);
@@ -252,7 +248,7 @@ bool BeltramiSolver::decoupled() const {
     return implementation_->decoupled;
 }
 int BeltramiSolver::factorization_count() const {
-    return implementation_->solver->factorization_count();
+    return implementation_->system->factorization_count();
 }
 
 void BeltramiSolver::factorize(const Eigen::VectorXcd& nu, const Eigen::VectorXcd& directions,
@@ -267,23 +263,23 @@ void BeltramiSolver::factorize(const Eigen::VectorXcd& nu, const Eigen::VectorXc
 Eigen::VectorXcd BeltramiSolver::solve(const Eigen::VectorXcd& start) const {
     const Implementation& m = *implementation_;
     const Eigen::VectorXcd base = m.base_of(start);
-    return m.unpack(m.solver->solve(m.right_hand_side(base)), base);
+    return m.unpack(m.system->solve(m.right_hand_side(base)), base);
 }
 
 Eigen::VectorXcd BeltramiSolver::solve(const Eigen::VectorXcd& start, const Eigen::VectorXcd& offset) const {
     const Implementation& m = *implementation_;
     const Eigen::VectorXcd base = m.base_of(start);
-    return m.unpack(m.solver->solve(m.right_hand_side(base, offset)), base);
+    return m.unpack(m.system->solve(m.right_hand_side(base, offset)), base);
 }
 
 Eigen::MatrixXcd BeltramiSolver::solve_offsets(const Eigen::MatrixXcd& offsets) const {
     const Implementation& m = *implementation_;
     const int count = static_cast<int>(offsets.cols());
     const Eigen::Index each = m.decoupled ? 2 : 1;  // columns of the system for each of them
-    Eigen::MatrixXd rhs = Eigen::MatrixXd::Zero(m.assembly->unknown_count(), each * count);
+    Eigen::MatrixXd rhs = Eigen::MatrixXd::Zero(m.system->unknown_count(), each * count);
     parallel_for(
         0, count, [&](int first, int last) { m.subtract_offsets(offsets, first, last, rhs); }, kOffsetsAtOnce);
-    const Eigen::MatrixXd y = m.solver->solve(rhs);
+    const Eigen::MatrixXd y = m.system->solve(rhs);
     const Eigen::VectorXcd base = Eigen::VectorXcd::Zero(m.operators.vertex_count);
     Eigen::MatrixXcd result(m.operators.vertex_count, count);
     parallel_for_each(count, [&](int j) { result.col(j) = m.unpack(y.middleCols(each * j, each), base); });
@@ -293,10 +289,10 @@ Eigen::MatrixXcd BeltramiSolver::solve_offsets(const Eigen::MatrixXcd& offsets) 
 Eigen::VectorXd BeltramiSolver::solve_poisson(const Eigen::VectorXd& load) const {
     const Implementation& m = *implementation_;
     if (!m.decoupled) throw std::logic_error("BeltramiSolver::solve_poisson needs a fixed boundary");
-    Eigen::MatrixXd rhs(m.assembly->unknown_count(), 1);
+    Eigen::MatrixXd rhs(m.system->unknown_count(), 1);
     // The matrix is that of ½ ∫ ∇u·∇v.
     for (Eigen::Index u = 0; u < rhs.rows(); ++u) rhs(u, 0) = 0.5 * load[m.owner[u]];
-    const Eigen::MatrixXd y = m.solver->solve(rhs);
+    const Eigen::MatrixXd y = m.system->solve(rhs);
     Eigen::VectorXd result = Eigen::VectorXd::Zero(m.operators.vertex_count);
     for (Eigen::Index u = 0; u < rhs.rows(); ++u) result[m.owner[u]] = y(u, 0);
     return result;
@@ -311,7 +307,7 @@ Eigen::VectorXcd BeltramiSolver::solve_near(const Eigen::VectorXcd& nu, const Ei
                                             const Eigen::VectorXd& extra_diagonal, const Eigen::VectorXcd& start,
                                             const Eigen::VectorXcd& guess, double tolerance) {
     Implementation& m = *implementation_;
-    if (m.solver->factorization_count() == 0) {
+    if (m.system->factorization_count() == 0) {
         factorize(nu, directions, extra_diagonal);
         return solve(start);
     }
@@ -324,9 +320,9 @@ Eigen::VectorXcd BeltramiSolver::solve_near(const Eigen::VectorXcd& nu, const Ei
     const Eigen::VectorXcd centred = m.base_of(start.array() - centre);
     const Eigen::MatrixXd rhs = m.right_hand_side(centred);
     Eigen::MatrixXd y = m.pack(guess.array() - centre, centred);
-    if (!m.solver->solve_near(rhs, y, std::max(tolerance, kNearTolerance), kMostNearSteps)) {
+    if (!m.system->solve_near(rhs, y, std::max(tolerance, kNearTolerance), kMostNearSteps)) {
         m.factorize();
-        y = m.solver->solve(rhs);
+        y = m.system->solve(rhs);
     }
     Eigen::VectorXcd map = m.unpack(y, base);
     for (int v = 0; v < m.operators.vertex_count; ++v)

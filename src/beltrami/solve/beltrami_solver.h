@@ -15,7 +15,7 @@ namespace beltrami {
 class BeltramiSolver {
   public:
     /// @param freedoms               #V
-    /// @param expected_factorizations see SymmetricSolver
+    /// @param expected_factorizations see ElementSystem
     BeltramiSolver(const Surface& source, std::vector<Freedom> freedoms, int expected_factorizations);
     ~BeltramiSolver();
     BeltramiSolver(BeltramiSolver&&) noexcept;

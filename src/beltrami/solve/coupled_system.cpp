@@ -1,6 +1,8 @@
 #include <beltrami/solve/coupled_system.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <utility>
 
 #include <beltrami/base/disjoint_sets.h>
 
@@ -8,95 +10,53 @@ namespace beltrami {
 
 namespace {
 
-/// The pattern with two unknowns in place of every one.
-SymmetricSolver::Matrix doubled(const SymmetricSolver::Matrix& pattern) {
-    const int count = static_cast<int>(pattern.cols());
-    SymmetricSolver::Matrix result(2 * count, 2 * count);
-    result.makeCompressed();
-    result.resizeNonZeros(4 * pattern.nonZeros() - count);
-    int *begins = result.outerIndexPtr(), *row = result.innerIndexPtr(), at = 0;
-    for (int c = 0; c < count; ++c)
-        for (int part = 0; part < 2; ++part) {
-            *begins++ = at;
-            for (SymmetricSolver::Matrix::InnerIterator entry(pattern, c); entry; ++entry)
-                for (int i = entry.row() == c ? part : 0; i < 2; ++i, ++at)
-                    *row++ = 2 * static_cast<int>(entry.row()) + i;
-        }
-    *begins = at;
-    result.coeffs().setZero();
-    return result;
+std::vector<int> places_of(const std::vector<Freedom>& freedoms) {
+    std::vector<int> place(freedoms.size(), -1);
+    int count = 0;
+    for (std::size_t v = 0; v < freedoms.size(); ++v)
+        if (freedoms[v] != Freedom::fixed) place[v] = count++;
+    return place;
+}
+
+ElementSystem system_of(const Operators& operators, const std::vector<int>& place, int expected_factorizations) {
+    std::vector<int> places;
+    places.reserve(operators.vertices.size());
+    for (const int v : operators.vertices) places.push_back(place[v]);
+    const auto fixed = std::count(place.begin(), place.end(), -1);
+    return {operators.offsets, std::move(places), static_cast<int>(static_cast<std::ptrdiff_t>(place.size()) - fixed),
+            expected_factorizations, 2};
 }
 
 }  // namespace
 
 CoupledSystem::CoupledSystem(const Operators& operators, const std::vector<Freedom>& freedoms,
                              int expected_factorizations)
-    : place_(freedoms.size(), -1) {
-    int moving = 0;
-    for (std::size_t v = 0; v < freedoms.size(); ++v)
-        if (freedoms[v] != Freedom::fixed) place_[v] = moving++;
-    count_ = 2 * moving;
-    std::vector<int> offsets{0}, places;
-    for (int s = 0; s < operators.sample_count(); ++s) {
-        for (const int v : operators.stencil(s)) places.push_back(place_[v]);
-        offsets.push_back(static_cast<int>(places.size()));
-    }
-    assembly_ = std::make_unique<ElementAssembly>(std::move(offsets), std::move(places), moving);
-    const SymmetricSolver::Matrix pattern = assembly_->pattern();
-    begins_.assign(pattern.outerIndexPtr(), pattern.outerIndexPtr() + moving + 1);
-    solver_ = std::make_unique<SymmetricSolver>(doubled(pattern), expected_factorizations, 2);
-    gradient_ = Eigen::VectorXd::Zero(count_);
-}
-
-CoupledSystem::Block CoupledSystem::block_at(int slot, int column) const {
-    const int begin = 4 * begins_[column] - column, row = 2 * (slot - begins_[column]);
-    return {begin + row, begin + 2 * (begins_[column + 1] - begins_[column]) + row - 1};
-}
+    : place_(places_of(freedoms)),
+      system_(system_of(operators, place_, expected_factorizations)),
+      gradient_(Eigen::VectorXd::Zero(system_.unknown_count())) {}
 
 void CoupledSystem::set_zero() {
     gradient_.setZero();
-    solver_->matrix().coeffs().setZero();
+    system_.clear();
 }
 
 void CoupledSystem::add(int sample, const double* gradient, const double* hessian) {
-    const auto places = assembly_->unknowns(sample);
-    const int* slot = assembly_->slots(sample).data();
-    double* values = solver_->matrix().valuePtr();
+    const auto places = system_.nodes(sample);
     for (std::size_t i = 0; i < places.size(); ++i) {
-        // Rows 2i and 2i+1 of the Hessian's lower triangle.
-        const double *real = hessian + i * (2 * i + 1), *imaginary = real + 2 * i + 1;
-        if (places[i] >= 0) {
-            gradient_[2 * places[i]] += gradient[2 * i];
-            gradient_[2 * places[i] + 1] += gradient[2 * i + 1];
-        }
-        for (std::size_t j = 0; j < i; ++j, ++slot) {
-            if (*slot < 0) continue;
-            const Block at = block_at(*slot, std::min(places[i], places[j]));
-            const bool below = places[i] > places[j];
-            values[at.first] += real[2 * j];
-            values[at.first + 1] += below ? imaginary[2 * j] : real[2 * j + 1];
-            values[at.second] += below ? real[2 * j + 1] : imaginary[2 * j];
-            values[at.second + 1] += imaginary[2 * j + 1];
-        }
-        if (*slot >= 0) {
-            const Block at = block_at(*slot, places[i]);
-            values[at.first] += real[2 * i];
-            values[at.first + 1] += imaginary[2 * i];
-            values[at.second + 1] += imaginary[2 * i + 1];
-        }
-        ++slot;
+        if (places[i] < 0) continue;
+        gradient_[2 * places[i]] += gradient[2 * i];
+        gradient_[2 * places[i] + 1] += gradient[2 * i + 1];
     }
+    system_.add(sample, {hessian, places.size() * (2 * places.size() + 1)});
 }
 
 void CoupledSystem::scale_diagonal(double factor) {
-    auto& matrix = solver_->matrix();
-    // The diagonal is the first entry of every column of a lower triangle.
-    for (int c = 0; c < count_; ++c) matrix.valuePtr()[matrix.outerIndexPtr()[c]] *= factor;
+    system_.scale_diagonal(factor);
 }
 
 CoupledSystem::Step CoupledSystem::solve() {
-    solver_->factorize();
-    const Eigen::VectorXd solution = solver_->solve(-gradient_);
+    system_.factorize();
+    const Eigen::VectorXd solution = system_.solve(-gradient_);
     Step step{Eigen::VectorXcd::Zero(static_cast<Eigen::Index>(place_.size())), gradient_.dot(solution)};
     for (std::size_t v = 0; v < place_.size(); ++v)
         if (place_[v] >= 0)

@@ -1,11 +1,9 @@
 #pragma once
 
-#include <memory>
-#include <span>
 #include <vector>
 
 #include <beltrami/constraints/boundary_condition.h>
-#include <beltrami/linear/element_assembly.h>
+#include <beltrami/linear/element_system.h>
 
 namespace beltrami {
 
@@ -14,7 +12,7 @@ namespace beltrami {
 class CoupledSystem {
   public:
     /// @param operators kept by reference; every vertex that is not fixed occurs in some sample
-    /// @param expected_factorizations see SymmetricSolver
+    /// @param expected_factorizations see ElementSystem
     CoupledSystem(const Operators& operators, const std::vector<Freedom>& freedoms, int expected_factorizations);
 
     struct Step {
@@ -33,20 +31,11 @@ class CoupledSystem {
     /// @throw Error not_solved where it is not positive definite
     Step solve();
 
-    int factorization_count() const { return solver_->factorization_count(); }
+    int factorization_count() const { return system_.factorization_count(); }
 
   private:
-    /// Where the two by two entries of a pair of vertices stand among the values of the matrix: in two columns.
-    struct Block {
-        int first, second;  ///< of the row of the real part; in the second column the diagonal's is not stored
-    };
-    Block block_at(int slot, int column) const;
-
     std::vector<int> place_;  // #V among those that are not fixed, −1 where fixed; twice it the first unknown
-    int count_ = 0;           // of unknowns
-    std::unique_ptr<ElementAssembly> assembly_;  // of vertices
-    std::vector<int> begins_;                    // of the columns of its pattern
-    std::unique_ptr<SymmetricSolver> solver_;
+    ElementSystem system_;
     Eigen::VectorXd gradient_;
 };
 

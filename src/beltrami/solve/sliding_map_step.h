@@ -13,7 +13,7 @@ class SlidingMapStep final : public PlaneMapStep {
   public:
     /// @param source, boundary kept by reference; boundary holds where the vertices are
     /// @param map #V to start from
-    /// @param expected_factorizations see SymmetricSolver
+    /// @param expected_factorizations see ElementSystem
     SlidingMapStep(const Surface& source, SlidingBoundary& boundary, Eigen::VectorXcd map, int expected_factorizations);
 
     void solve(const Eigen::VectorXcd& nu, double tolerance) override;

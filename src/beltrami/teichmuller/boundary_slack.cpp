@@ -4,10 +4,11 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <optional>
+#include <utility>
+#include <vector>
 
 #include <beltrami/base/error.h>
-#include <beltrami/linear/symmetric_solver.h>
+#include <beltrami/linear/element_system.h>
 #include <beltrami/plane/circle_fit.h>
 #include <beltrami/plane/target_curve.h>
 
@@ -99,33 +100,107 @@ double energy(const PairWeights& weights, const Eigen::VectorXd& u) {
     return sum;
 }
 
-using Matrix = SymmetricSolver::Matrix;
+/// The quadratic form Σ w_ij (v_i − v_j)² / 2 over the pairs of edges at most kBand apart, of v = dlog(increment),
+/// where the point i moves by x_i: an increment runs from its point to the next. A little of its mean diagonal makes it
+/// definite.
+class SlackForm {
+  public:
+    explicit SlackForm(const PairWeights& weights) : SlackForm(weights.size(), pairs_of(weights.size()), weights) {}
 
-/// Graph Laplacian of the weights of edges at most kBand apart.
-Matrix coupling(const PairWeights& weights) {
-    const int n = weights.size(), reach = std::min(kBand, (n - 1) / 2);
-    std::vector<Eigen::Triplet<double>> entries;
-    for (int i = 0; i < n; ++i)
-        for (int step = 1; step <= reach; ++step) {
-            const int j = (i + step) % n;
-            const double w = weights(i, j);
-            entries.emplace_back(i, i, w);
-            entries.emplace_back(j, j, w);
-            entries.emplace_back(i, j, -w);
-            entries.emplace_back(j, i, -w);
+    /// Linearises at the increments.
+    void set(const Eigen::VectorXd& increment) {
+        increment_ = increment;
+        hessian_.clear();
+        for (std::size_t p = 0; p < pairs_.size(); ++p) {
+            const std::array<double, 4> row = row_of(pairs_[p]);
+            std::array<double, 10> lower;
+            std::size_t entries = 0;
+            for (std::size_t a = 0; a < system_.nodes(static_cast<int>(p)).size(); ++a)
+                for (std::size_t b = 0; b <= a; ++b) lower[entries++] = weights_[p] * row[a] * row[b];
+            system_.add(static_cast<int>(p), {lower.data(), entries}, hessian_);
         }
-    Matrix result(n, n);
-    result.setFromTriplets(entries.begin(), entries.end());
-    return result;
-}
+        system_.set(hessian_);
+        double sum = 0;
+        for (int i = 0; i < size_; ++i) sum += system_.diagonal(i);
+        shift_ = kShift * sum / size_;
+    }
+    /// H x.
+    Eigen::VectorXd apply(const Eigen::VectorXd& x) const {
+        Eigen::VectorXd v(size_);
+        for (int i = 0; i < size_; ++i) v[i] = (x[(i + 1) % size_] - x[i]) / increment_[i];
+        return pull(v) + shift_ * x;
+    }
+    /// The derivatives by the moves of Σ w_ij (u_i + v_i − u_j − v_j)² / 2 at v = 0.
+    Eigen::VectorXd pull(const Eigen::VectorXd& u) const {
+        Eigen::VectorXd of_edges = Eigen::VectorXd::Zero(size_), result(size_);
+        for (std::size_t p = 0; p < pairs_.size(); ++p) {
+            const auto [i, j] = pairs_[p];
+            const double force = weights_[p] * (u[i] - u[j]);
+            of_edges[i] += force;
+            of_edges[j] -= force;
+        }
+        of_edges.array() /= increment_.array();
+        for (int i = 0; i < size_; ++i) result[i] = of_edges[(i + size_ - 1) % size_] - of_edges[i];
+        return result;
+    }
+    /// (H + diag(barrier))⁻¹ rhs.
+    Eigen::VectorXd solve(const Eigen::ArrayXd& barrier, const Eigen::VectorXd& rhs) {
+        system_.set(hessian_);
+        for (int i = 0; i < size_; ++i) system_.add_to_diagonal(i, shift_ + barrier[i]);
+        system_.factorize();
+        return system_.solve(rhs);
+    }
+
+  private:
+    using Pairs = std::vector<std::array<int, 2>>;  // of edges, the second after the first
+
+    SlackForm(int size, Pairs pairs, const PairWeights& weights)
+        : size_(size), pairs_(std::move(pairs)), system_(system_of(size, pairs_)), hessian_(system_) {
+        for (const auto& [i, j] : pairs_) weights_.push_back(weights(i, j));
+    }
+
+    static Pairs pairs_of(int size) {
+        Pairs pairs;
+        for (int i = 0; i < size; ++i)
+            for (int step = 1; step <= std::min(kBand, (size - 1) / 2); ++step) pairs.push_back({i, (i + step) % size});
+        return pairs;
+    }
+    /// The ends of both edges; the one that neighbours share once.
+    static ElementSystem system_of(int size, const Pairs& pairs) {
+        std::vector<int> offsets{0}, points;
+        for (const auto& [i, j] : pairs) {
+            points.insert(points.end(), {i, (i + 1) % size});
+            if (j != (i + 1) % size) points.push_back(j);
+            points.push_back((j + 1) % size);
+            offsets.push_back(static_cast<int>(points.size()));
+        }
+        return {std::move(offsets), std::move(points), size, kSteps * kInteriorSteps};
+    }
+    /// v_i − v_j by the moves of the pair's points, as system_of lists them.
+    std::array<double, 4> row_of(const std::array<int, 2>& pair) const {
+        const auto [i, j] = pair;
+        const double a = 1 / increment_[i], b = 1 / increment_[j];
+        std::array<double, 4> row{-a, a, 0, 0};
+        std::size_t count = 2;
+        (j == (i + 1) % size_ ? row[1] : row[count++]) += b;
+        row[count] -= b;
+        return row;
+    }
+
+    int size_;
+    Pairs pairs_;
+    ElementSystem system_;
+    ElementSystem::Values hessian_;
+    std::vector<double> weights_;
+    Eigen::VectorXd increment_;
+    double shift_ = 0;
+};
 
 /// Minimises ½ xᵀHx + qᵀx between bounds by a primal-dual interior point method.
-/// @param solver of the pattern of H's lower triangle
-Eigen::VectorXd minimum_in_box(const Matrix& hessian, const Eigen::VectorXd& q, const Eigen::VectorXd& low,
-                               const Eigen::VectorXd& high, SymmetricSolver& solver) {
-    const Matrix lower = hessian.triangularView<Eigen::Lower>();
+Eigen::VectorXd minimum_in_box(SlackForm& hessian, const Eigen::VectorXd& q, const Eigen::VectorXd& low,
+                               const Eigen::VectorXd& high) {
     Eigen::VectorXd x = 0.5 * (low + high);
-    const double force = std::max((hessian * x + q).cwiseAbs().maxCoeff(), 1e-300);
+    const double force = std::max((hessian.apply(x) + q).cwiseAbs().maxCoeff(), 1e-300);
     Eigen::VectorXd at_low = Eigen::VectorXd::Constant(x.size(), force), at_high = at_low;  // multipliers
     const double last = kInteriorTolerance * force * (high - low).mean();
     for (int step = 0; step < kInteriorSteps; ++step) {
@@ -133,13 +208,9 @@ Eigen::VectorXd minimum_in_box(const Matrix& hessian, const Eigen::VectorXd& q, 
         const double gap = (above * at_low.array() + below * at_high.array()).mean() / 2;
         if (gap < last) break;
         const double centred = (step == 0 ? 0.5 : 0.1) * gap;
-        solver.matrix().coeffs() = lower.coeffs();
         const Eigen::ArrayXd barrier = at_low.array() / above + at_high.array() / below;
-        for (Eigen::Index i = 0; i < x.size(); ++i)
-            solver.matrix().valuePtr()[solver.matrix().outerIndexPtr()[i]] += barrier[i];  // first of its column
-        solver.factorize();
-        const Eigen::VectorXd rhs = -(hessian * x + q) + (centred / above - centred / below).matrix();
-        const Eigen::ArrayXd move = solver.solve(rhs).col(0).array();
+        const Eigen::VectorXd rhs = -(hessian.apply(x) + q) + (centred / above - centred / below).matrix();
+        const Eigen::ArrayXd move = hessian.solve(barrier, rhs).array();
         const Eigen::ArrayXd low_move = centred / above - at_low.array() - at_low.array() / above * move,
                              high_move = centred / below - at_high.array() + at_high.array() / below * move;
         double length = 1;
@@ -186,7 +257,6 @@ SlackBoundary slacken(const Surface& source, const Chart& chart, const BoundaryC
     const double length = track.curve.length();
     const Eigen::VectorXd angles = rim_angles(rim, chart);
     const PairWeights weights(angles);
-    const Matrix coupled = coupling(weights);
 
     const auto increments = [&](const Eigen::VectorXd& t) {
         Eigen::VectorXd result(n);
@@ -212,18 +282,9 @@ SlackBoundary slacken(const Surface& source, const Chart& chart, const BoundaryC
     }
 
     SlackBoundary result{boundary, energy(weights, speeds(increment)), 0, 0};
-    std::optional<SymmetricSolver> solver;
+    SlackForm form(weights);
     for (int step = 0; step < kSteps; ++step) {
-        const Eigen::VectorXd u = speeds(increment);
-        std::vector<Eigen::Triplet<double>> entries;
-        for (int i = 0; i < n; ++i) {
-            entries.emplace_back(i, i, -1 / increment[i]);
-            entries.emplace_back(i, (i + 1) % n, 1 / increment[i]);
-        }
-        Matrix by_place(n, n);
-        by_place.setFromTriplets(entries.begin(), entries.end());
-        Matrix hessian = Matrix(by_place.transpose()) * coupled * by_place;
-        hessian.diagonal().array() += kShift * hessian.diagonal().mean();
+        form.set(increment);
         // By moves from where the points stand, which may be far shorter than the curve is long.
         Eigen::VectorXd from(n), to(n);
         for (int i = 0; i < n; ++i) {
@@ -231,9 +292,7 @@ SlackBoundary slacken(const Surface& source, const Chart& chart, const BoundaryC
             from[i] = std::min(std::max(low[i] - t[i], -room), 0.0) - 1e-12 * edge[i];
             to[i] = std::max(std::min(high[i] - t[i], room), 0.0) + 1e-12 * edge[i];
         }
-        const Eigen::VectorXd force = by_place.transpose() * (coupled * u);
-        if (!solver) solver.emplace(hessian.triangularView<Eigen::Lower>(), kSteps * kInteriorSteps);
-        const Eigen::VectorXd move = minimum_in_box(hessian, force, from, to, *solver);
+        const Eigen::VectorXd move = minimum_in_box(form, form.pull(speeds(increment)), from, to);
         const double moved = move.cwiseQuotient(edge).cwiseAbs().maxCoeff();
         t += move;
         increment = increments(t);

@@ -17,7 +17,7 @@ class ExtremalProblem {
   public:
     /// Orders and factorises the f-step for the coefficient 0 and solves for the harmonic map.
     /// @param source kept by reference
-    /// @param expected_factorizations see SymmetricSolver
+    /// @param expected_factorizations see ElementSystem
     ExtremalProblem(const Surface& source, const BoundaryCondition& boundary, int expected_factorizations);
     ExtremalProblem(const ExtremalProblem&) = delete;
 

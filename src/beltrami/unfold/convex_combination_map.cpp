@@ -9,8 +9,7 @@
 #include <vector>
 
 #include <beltrami/base/error.h>
-#include <beltrami/linear/element_assembly.h>
-#include <beltrami/linear/symmetric_solver.h>
+#include <beltrami/linear/graph_laplacian.h>
 
 namespace beltrami {
 
@@ -33,31 +32,12 @@ Eigen::VectorXcd with_solution(Eigen::VectorXcd map, const Unknowns& unknowns, c
 }
 
 Eigen::VectorXcd uniform_map(const Surface& source, const Unknowns& unknowns, const Eigen::VectorXcd& fixed) {
-    std::vector<int> offsets{0}, of_edges;
-    for (const auto& [a, b] : source.topology.edges) {
-        of_edges.insert(of_edges.end(), {unknowns.of[a], unknowns.of[b]});
-        offsets.push_back(static_cast<int>(of_edges.size()));
-    }
-    const ElementAssembly assembly(std::move(offsets), std::move(of_edges), unknowns.count);
-    SymmetricSolver solver(assembly.pattern(), 1);
-    double* values = solver.matrix().valuePtr();
-    Eigen::MatrixXd rhs = Eigen::MatrixXd::Zero(unknowns.count, 2);
-    const auto pull = [&](int u, Complex towards) {
-        rhs(u, 0) += towards.real();
-        rhs(u, 1) += towards.imag();
-    };
-    for (int e = 0; e < source.topology.edge_count(); ++e) {
-        const auto [a, b] = source.topology.edges[e];
-        const auto slots = assembly.slots(e);
-        if (slots[0] >= 0) values[slots[0]] += 1;
-        if (slots[1] >= 0) values[slots[1]] -= 1;
-        if (slots[2] >= 0) values[slots[2]] += 1;
-        const int u = unknowns.of[a], w = unknowns.of[b];
-        if (u >= 0 && w < 0) pull(u, fixed[b]);
-        if (w >= 0 && u < 0) pull(w, fixed[a]);
-    }
-    solver.factorize();
-    return with_solution(fixed, unknowns, solver.solve(rhs));
+    std::vector<char> held(unknowns.of.size());
+    std::transform(unknowns.of.begin(), unknowns.of.end(), held.begin(), [](int u) { return u < 0; });
+    GraphLaplacian laplacian(source.topology.edges, held);
+    laplacian.set(std::vector<double>(source.topology.edges.size(), 1.0));
+    laplacian.factorize();
+    return laplacian.extend(fixed);
 }
 
 /// The position of a face corner in the metric.

@@ -49,23 +49,11 @@ Eigen::VectorXcd displacement_start(const Surface& source, const Eigen::VectorXc
     std::vector<Freedom> freedom = freedoms(boundary, source);
     std::replace(freedom.begin(), freedom.end(), Freedom::sliding, Freedom::fixed);
 
-    // L u = −L (prescribed displacement) at the vertices that are not fixed.
-    const Operators& operators = source.operators;
-    Eigen::MatrixXd force = Eigen::MatrixXd::Zero(map.size(), 2);
-    for (int s = 0; s < operators.sample_count(); ++s) {
-        const auto stencil = operators.stencil(s);
-        const auto g = operators.gradient(s);
-        for (std::size_t i = 0; i < g.size(); ++i)
-            for (std::size_t j = 0; j < g.size(); ++j) {
-                const Complex pull =
-                    operators.weights[s] * std::real(std::conj(g[i]) * g[j]) * displacement[stencil[j]];
-                force(stencil[i], 0) -= pull.real();
-                force(stencil[i], 1) -= pull.imag();
-            }
-    }
-    const Eigen::MatrixXd rest = detail::Laplacian(operators, freedom).solve(force);
-    displacement.real() += rest.col(0);
-    displacement.imag() += rest.col(1);
+    Eigen::MatrixXd parts(map.size(), 2);
+    parts << displacement.real(), displacement.imag();
+    parts = detail::Laplacian(source.operators, detail::fixed_vertices(freedom)).extend(parts);
+    displacement.real() = parts.col(0);
+    displacement.imag() = parts.col(1);
     return map + displacement;
 }
 

@@ -1,12 +1,13 @@
 #include <beltrami/uniformize/conformal_equivalence.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
 
 #include <beltrami/base/error.h>
-#include <beltrami/linear/symmetric_solver.h>
+#include <beltrami/linear/graph_laplacian.h>
 
 namespace beltrami {
 
@@ -71,132 +72,59 @@ std::vector<char> free_vertices(const ScaledSurface& surface, const ScaleFactorP
 class Hessian {
   public:
     int factorizations() const { return factorizations_; }
-    void forget_pattern() { solver_.reset(); }
+    void forget_pattern() { laplacian_.reset(); }
 
     /// @param free which vertices are, read where the pattern is rebuilt
     /// @return −H⁻¹ defect at the free vertices, 0 elsewhere
     Eigen::VectorXd step(const IntrinsicTriangulation& triangulation, const std::vector<char>& free,
                          const State& state) {
-        if (!solver_) {
-            number(free);
-            build_pattern(triangulation);
+        if (!laplacian_) build_pattern(triangulation, free);
+        weights_.resize(edges_.size());
+        for (std::size_t e = 0; e < edges_.size(); ++e) {
+            const int twin = triangulation.twin(edges_[e]);
+            weights_[e] = 0.5 * (state.cotangents[edges_[e]] + (twin >= 0 ? state.cotangents[twin] : 0.0));
         }
-        fill(triangulation, state.cotangents);
-        Eigen::VectorXd right_side(size_);
-        for (std::size_t v = 0; v < unknowns_.size(); ++v)
-            if (unknowns_[v] >= 0) right_side[unknowns_[v]] = -state.defect[static_cast<Eigen::Index>(v)];
-        const Eigen::VectorXd solution = solve(right_side);
-        Eigen::VectorXd result = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(unknowns_.size()));
-        for (std::size_t v = 0; v < unknowns_.size(); ++v)
-            if (unknowns_[v] >= 0) result[static_cast<Eigen::Index>(v)] = solution[unknowns_[v]];
-        return result;
+        laplacian_->set(weights_);
+        return solve(-state.defect);
     }
 
   private:
-    void number(const std::vector<char>& free) {
-        unknowns_.assign(free.size(), -1);
-        size_ = 0;
-        for (std::size_t v = 0; v < free.size(); ++v)
-            if (free[v]) unknowns_[v] = size_++;
-    }
-
-    /// Row and column of an edge in the lower triangle; −1 if an end is fixed or both are the same vertex.
-    std::pair<int, int> place(const IntrinsicTriangulation& triangulation, int h) const {
-        const int i = unknowns_[triangulation.tail(h)], j = unknowns_[triangulation.head(h)];
-        if (i < 0 || j < 0 || i == j) return {-1, -1};
-        return {std::max(i, j), std::min(i, j)};
-    }
-
-    /// Two counting sorts, by row and then by column, give sorted columns in linear time.
-    void build_pattern(const IntrinsicTriangulation& triangulation) {
-        const int count = triangulation.halfedge_count();
-        std::vector<int> row_start(static_cast<std::size_t>(size_) + 2, 0);
-        std::vector<int> column_bound(static_cast<std::size_t>(size_) + 1, 0);  // room, before duplicates are merged
-        for (int h = 0; h < count; ++h) {
-            if (h < triangulation.twin(h)) continue;
-            const auto [row, column] = place(triangulation, h);
-            if (row < 0) continue;
-            ++row_start[row + 2];
-            ++column_bound[column + 1];
-        }
-        for (int i = 0; i < size_; ++i) {
-            row_start[i + 2] += row_start[i + 1];
-            column_bound[i + 1] += column_bound[i] + 1;
-        }
-        std::vector<int> by_row(static_cast<std::size_t>(row_start[size_ + 1]));
-        for (int h = 0; h < count; ++h) {
-            if (h < triangulation.twin(h)) continue;
-            const int row = place(triangulation, h).first;
-            if (row >= 0) by_row[row_start[row + 1]++] = h;
-        }
-
-        std::vector<int> rows(static_cast<std::size_t>(column_bound[size_]));
-        std::vector<int> filled(column_bound.begin(), column_bound.end() - 1);
-        slots_.assign(static_cast<std::size_t>(count), -1);
-        for (int i = 0; i < size_; ++i) rows[filled[i]++] = i;  // the diagonal comes first in its column
-        for (const int h : by_row) {
-            const auto [row, column] = place(triangulation, h);
-            if (rows[filled[column] - 1] != row) rows[filled[column]++] = row;
-            slots_[h] = filled[column] - 1;
-        }
-
-        Matrix lower(size_, size_);
-        std::vector<int> shift(static_cast<std::size_t>(size_));
-        for (int i = 0; i < size_; ++i) {
-            shift[i] = column_bound[i] - lower.outerIndexPtr()[i];
-            lower.outerIndexPtr()[i + 1] = lower.outerIndexPtr()[i] + filled[i] - column_bound[i];
-        }
-        lower.resizeNonZeros(lower.outerIndexPtr()[size_]);
-        for (int i = 0; i < size_; ++i)
-            std::copy(rows.begin() + column_bound[i], rows.begin() + filled[i],
-                      lower.innerIndexPtr() + lower.outerIndexPtr()[i]);
-        for (const int h : by_row) slots_[h] -= shift[place(triangulation, h).second];
-        std::fill(lower.valuePtr(), lower.valuePtr() + lower.nonZeros(), 0.0);
-        solver_.emplace(std::move(lower), 2);
-    }
-
-    void fill(const IntrinsicTriangulation& triangulation, const std::vector<double>& cotangents) {
-        Matrix& lower = solver_->matrix();
-        double* values = lower.valuePtr();
-        std::fill(values, values + lower.nonZeros(), 0.0);
+    void build_pattern(const IntrinsicTriangulation& triangulation, const std::vector<char>& free) {
+        edges_.clear();
+        std::vector<std::array<int, 2>> ends;
         for (int h = 0; h < triangulation.halfedge_count(); ++h) {
-            const int twin = triangulation.twin(h);
-            if (h < twin) continue;
-            const int i = unknowns_[triangulation.tail(h)], j = unknowns_[triangulation.head(h)];
-            if (i == j) continue;
-            const double weight = 0.5 * (cotangents[h] + (twin >= 0 ? cotangents[twin] : 0.0));
-            if (i >= 0) values[lower.outerIndexPtr()[i]] += weight;
-            if (j >= 0) values[lower.outerIndexPtr()[j]] += weight;
-            if (slots_[h] >= 0) values[slots_[h]] -= weight;
+            if (h < triangulation.twin(h)) continue;
+            edges_.push_back(h);
+            ends.push_back({triangulation.tail(h), triangulation.head(h)});
         }
+        std::vector<char> held(free.size());
+        std::transform(free.begin(), free.end(), held.begin(), [](char f) { return !f; });
+        laplacian_.emplace(std::move(ends), held, 2);
     }
 
     /// Degenerate triangles have no cotangents and may leave the matrix singular or nearly so: a shift of its diagonal
     /// then keeps the step finite, and a direction of descent.
     Eigen::VectorXd solve(const Eigen::VectorXd& right_side) {
-        const double mean = solver_->matrix().diagonal().cwiseAbs().mean();
+        const double mean = laplacian_->mean_diagonal();
         for (double shift = 0;;) {
             const double next_shift = shift == 0 ? kFirstShift * mean : 100 * shift;
             const bool may_shift = next_shift <= kLargestShift * mean;
             ++factorizations_;
             try {
-                solver_->factorize();
-                Eigen::VectorXd solution = solver_->solve(right_side);
+                laplacian_->factorize();
+                Eigen::VectorXd solution = laplacian_->solve(right_side);
                 if (solution.lpNorm<Eigen::Infinity>() <= kLongestStep || !may_shift) return solution;
             } catch (const Error&) {
                 if (!may_shift) throw;
             }
-            Matrix& lower = solver_->matrix();
-            for (int i = 0; i < size_; ++i) lower.valuePtr()[lower.outerIndexPtr()[i]] += next_shift - shift;
+            laplacian_->shift_diagonal(next_shift - shift);
             shift = next_shift;
         }
     }
 
-    using Matrix = SymmetricSolver::Matrix;
-    std::vector<int> unknowns_;  // vertex → unknown, −1 = fixed
-    std::vector<int> slots_;     // half-edge → position of its entry among the values, −1 = none
-    std::optional<SymmetricSolver> solver_;
-    int size_ = 0;
+    std::vector<int> edges_;  // the half-edge of every edge that its weight is read at
+    std::vector<double> weights_;
+    std::optional<GraphLaplacian> laplacian_;
     int factorizations_ = 0;
 };
 

@@ -9,11 +9,12 @@
 #include <beltrami/base/parallel.h>
 #include <beltrami/linear/anderson.h>
 #include <beltrami/linear/dense.h>
-#include <beltrami/linear/element_assembly.h>
 #include <beltrami/linear/symmetric_solver.h>
 
 namespace beltrami {
 namespace {
+
+using detail::SymmetricSolver;
 
 /// The Laplacian of an n×n grid graph plus `shift` on the diagonal, as lower triangle.
 SymmetricSolver::Matrix grid_laplacian(int n, double shift) {
@@ -162,30 +163,6 @@ TEST(Dense, GramMatrix) {
     const Eigen::MatrixXd expected = (A.transpose() * A).triangularView<Eigen::Lower>();
     EXPECT_LT((gram_lower(A) - expected).norm(), 1e-13);
     EXPECT_EQ(gram_lower(Eigen::MatrixXd(0, 3)), Eigen::MatrixXd::Zero(3, 3));
-}
-
-TEST(ElementAssembly, PutsElementsWhereTheyBelong) {
-    // Three elements with an eliminated unknown; the sum is compared with a dense assembly.
-    const std::vector<int> offsets{0, 3, 6, 8}, unknowns{0, 1, 2, 2, -1, 1, 3, 0};
-    const ElementAssembly assembly(offsets, unknowns, 4);
-    SymmetricSolver::Matrix matrix = assembly.pattern();
-    Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(4, 4);
-    double value = 1;
-    for (int e = 0; e < assembly.element_count(); ++e) {
-        const auto u = assembly.unknowns(e);
-        const int* slot = assembly.slots(e).data();
-        for (std::size_t i = 0; i < u.size(); ++i)
-            for (std::size_t j = 0; j <= i; ++j, ++slot, value *= 1.5) {
-                if (u[i] < 0 || u[j] < 0) {
-                    EXPECT_EQ(*slot, -1);
-                    continue;
-                }
-                matrix.valuePtr()[*slot] += value;
-                expected(u[i], u[j]) += value;
-                if (u[i] != u[j]) expected(u[j], u[i]) += value;
-            }
-    }
-    EXPECT_LT((dense(matrix) - expected).norm(), 1e-14 * expected.norm());
 }
 
 TEST(AndersonAcceleration, SolvesLinearFixedPointsInFewSteps) {

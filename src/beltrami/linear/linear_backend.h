@@ -1,0 +1,8 @@
+#pragma once
+
+namespace beltrami {
+
+/// Name and version of the backend this library was built with, e.g. "CHOLMOD 3.0.14".
+const char* linear_backend();
+
+}  // namespace beltrami
