@@ -27,7 +27,7 @@ def stand_in():
     done = subprocess.run([os.environ["BELTRAMI_RECORDED"], *arguments], capture_output=True)
     written = [arguments[i + 1] for i, word in enumerate(arguments[:-1]) if word == "--json" and arguments[i + 1] != "-"]
     kept = {
-        "arguments": [re.sub(r"^/tmp/[^/]*", "/tmp", word) for word in arguments],
+        "arguments": [re.sub(r"(^|:)/tmp/[^/]*", r"\1/tmp", word) for word in arguments],
         "code": done.returncode,
         "out": done.stdout.decode("utf8", "replace"),
         "err": done.stderr.decode("utf8", "replace"),
