@@ -11,27 +11,27 @@ ElementAssembly::ElementAssembly(std::vector<int> offsets, std::vector<int> unkn
     : offsets_(std::move(offsets)), unknowns_(std::move(unknowns)), unknown_count_(unknown_count) {
     const int elements = element_count();
     slot_offsets_.resize(static_cast<std::size_t>(elements) + 1, 0);
-    std::vector<std::size_t> starts(static_cast<std::size_t>(unknown_count_) + 1, 1);  // every diagonal
-    starts[0] = 0;
     for (int e = 0; e < elements; ++e) {
-        const auto u = this->unknowns(e);
-        slot_offsets_[e + 1] = slot_offsets_[e] + u.size() * (u.size() + 1) / 2;
-        for (std::size_t i = 0; i < u.size(); ++i)
-            for (std::size_t j = 0; j <= i; ++j)
-                if (u[i] >= 0 && u[j] >= 0) ++starts[std::min(u[i], u[j]) + 1];
+        const std::size_t n = this->unknowns(e).size();
+        slot_offsets_[e + 1] = slot_offsets_[e] + n * (n + 1) / 2;
     }
+    // Calls act(column, row) for every pair below the diagonal, as often as it occurs.
+    const auto each_pair = [&](auto&& act) {
+        for (int e = 0; e < elements; ++e) {
+            const auto u = this->unknowns(e);
+            for (std::size_t i = 1; i < u.size(); ++i)
+                for (std::size_t j = 0; j < i; ++j)
+                    if (u[i] >= 0 && u[j] >= 0 && u[i] != u[j]) act(std::min(u[i], u[j]), std::max(u[i], u[j]));
+        }
+    };
+    std::vector<std::size_t> starts(static_cast<std::size_t>(unknown_count_) + 1, 0);
+    each_pair([&](int column, int) { ++starts[column + 1]; });
     for (int c = 0; c < unknown_count_; ++c) starts[c + 1] += starts[c];
 
     // Rows of every column with repetitions, then sorted and made unique column by column.
     std::vector<int> repeated(starts.back());
     std::vector<std::size_t> fill(starts.begin(), starts.end() - 1);
-    for (int c = 0; c < unknown_count_; ++c) repeated[fill[c]++] = c;
-    for (int e = 0; e < elements; ++e) {
-        const auto u = this->unknowns(e);
-        for (std::size_t i = 0; i < u.size(); ++i)
-            for (std::size_t j = 0; j <= i; ++j)
-                if (u[i] >= 0 && u[j] >= 0) repeated[fill[std::min(u[i], u[j])]++] = std::max(u[i], u[j]);
-    }
+    each_pair([&](int column, int row) { repeated[fill[column]++] = row; });
     std::vector<int> lengths(static_cast<std::size_t>(unknown_count_));
     parallel_for(0, unknown_count_, [&](int begin, int end) {
         for (int c = begin; c < end; ++c) {
@@ -42,10 +42,13 @@ ElementAssembly::ElementAssembly(std::vector<int> offsets, std::vector<int> unkn
         }
     });
     columns_.assign(static_cast<std::size_t>(unknown_count_) + 1, 0);
-    for (int c = 0; c < unknown_count_; ++c) columns_[c + 1] = columns_[c] + lengths[c];
+    for (int c = 0; c < unknown_count_; ++c) columns_[c + 1] = columns_[c] + 1 + lengths[c];
     rows_.resize(static_cast<std::size_t>(columns_.back()));
-    for (int c = 0; c < unknown_count_; ++c)
-        std::copy_n(repeated.begin() + static_cast<std::ptrdiff_t>(starts[c]), lengths[c], rows_.begin() + columns_[c]);
+    for (int c = 0; c < unknown_count_; ++c) {
+        int* row = rows_.data() + columns_[c];
+        *row++ = c;
+        std::copy_n(repeated.begin() + static_cast<std::ptrdiff_t>(starts[c]), lengths[c], row);
+    }
     repeated = {};
 
     slots_.resize(slot_offsets_.back());
@@ -61,7 +64,8 @@ ElementAssembly::ElementAssembly(std::vector<int> offsets, std::vector<int> unkn
                     }
                     const auto [column, row] = std::minmax(u[i], u[j]);
                     const auto first = rows_.begin() + columns_[column], last = rows_.begin() + columns_[column + 1];
-                    *slot = static_cast<int>(std::lower_bound(first, last, row) - rows_.begin());
+                    const auto at = row == column ? first : std::lower_bound(first + 1, last, row);
+                    *slot = static_cast<int>(at - rows_.begin());
                 }
         }
     });
