@@ -151,6 +151,18 @@ class Map(Command):
         self.assertGreater(k[0], 0.1)  # the identity of the boundary is far from conformal in that metric
         self.assertLess(self.record("map", self.path("disk.obj"), "-o", self.path("out.obj"), "--boundary", "disk")["map"]["k"], 1e-6)
 
+    def test_a_folded_parametrisation_is_corrected_in_its_own_metric(self):
+        points, faces = disk(10)
+        rng, folded = np.random.default_rng(5), points.copy()
+        inner = np.linalg.norm(points, axis=1) < 0.95
+        folded[inner] += rng.uniform(-0.06, 0.06, (inner.sum(), 2))
+        write_obj(self.path("folded.obj"), points, faces, folded)
+        self.assertGreater(self.record("measure", self.path("folded.obj"))["map"]["flipped"], 20)
+        record = self.record("map", self.path("folded.obj"), "-o", self.path("out.obj"), "--metric", "vt", "--boundary", "disk")
+        self.assertEqual(record["map"]["flipped"], 0)
+        source, corrected, triangles = read_obj(self.path("out.obj"))
+        self.assertTrue((abs_mu(source, corrected, triangles)[0] < 1).all())
+
     def test_every_method_writes_every_format(self):
         source = self.bump_file(8)
         for method in ("extremal", "harmonic", "lscm", "arap", "mips", "alternation", "qc"):
