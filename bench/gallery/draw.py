@@ -3,7 +3,7 @@
 
 A picture is a row of panels of one height: "map" (a planar mesh coloured by |mu|), "grid" (the image of a checkerboard or
 of small circles of the source, or these on the source itself), "faces" (the image with the edges of its faces),
-"histogram", "curves", "surface" (a mesh in space with a checkerboard or circles of the map's plane, with its edges, or
+"histogram" (by area or by triangles), "curves", "lines", "surface" (a mesh in space with a checkerboard or circles of the map's plane, with its edges, or
 coloured by |mu|). Or it is one "svg", an SVG file as chromium shows it."""
 import io
 import json
@@ -138,6 +138,17 @@ def draw_faces(axes, panel, load):
     frame(axes, data["plane"])
 
 
+def draw_lines(axes, panel, load):
+    """Chains of points, each group in a colour of its own."""
+    points = np.concatenate([np.array(line) for group in panel["groups"] for line in group["lines"]])
+    for group in panel["groups"]:
+        for line in group["lines"]:
+            axes.plot(*np.array(line).T, color=group["colour"], linewidth=group["width"], solid_capstyle="round")
+    for x, y, text in panel["labels"]:
+        axes.text(x, y, text, fontsize=7, ha="center", va="center")
+    frame(axes, points)
+
+
 def read_svg(path):
     """The picture of an SVG, at twice its size."""
     width, height = (float(x) for x in re.search(r'width="([0-9.]+)"[^>]*height="([0-9.]+)"', path.read_text()).groups())
@@ -148,6 +159,26 @@ def read_svg(path):
                         f"--user-data-dir={folder}/profile", f"--screenshot={picture}", path.resolve().as_uri()],
                        check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=120)
         return Image.open(picture).convert("RGB")
+
+
+ICING, DOUGH, SPRINKLES = (0.93, 0.55, 0.66), (0.80, 0.58, 0.33), ((0.98, 0.95, 0.80), (0.35, 0.62, 0.85), (0.98, 0.80, 0.25), (0.55, 0.78, 0.42))
+
+
+def doughnut(places):
+    """Colours of a doughnut with icing and sprinkles on .4 < |z| < 1."""
+    radius, angle = np.hypot(*places.T), np.arctan2(places[:, 1], places[:, 0])
+    wave = 0.03 * np.sin(7 * angle) + 0.02 * np.sin(11 * angle + 1)
+    iced = (radius > 0.5 - wave / 2) & (radius < 0.88 + wave)
+    # Darker towards both rims, as a torus is.
+    height = np.sqrt(np.clip(1 - ((radius - 0.7) / 0.32) ** 2, 0, 1))
+    colours = np.where(iced[:, None], ICING, DOUGH) * (0.62 + 0.38 * height[:, None])
+    random = np.random.default_rng(14)
+    for i in range(150):
+        r, t, turn = random.uniform(0.53, 0.84), random.uniform(-np.pi, np.pi), random.uniform(0, np.pi)
+        away = (places - r * np.array([np.cos(t), np.sin(t)])) @ np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
+        away[:, 0] = np.maximum(np.abs(away[:, 0]) - 0.022, 0)
+        colours[iced & (np.hypot(*away.T) < 0.0085)] = SPRINKLES[i % 4]
+    return colours
 
 
 def draw_grid(axes, panel, load):
@@ -163,7 +194,9 @@ def draw_grid(axes, panel, load):
     seen = face >= 0
     flat = data["space"][:, :2]
     source = np.einsum("pi,pij->pj", bary[seen], flat[data["triangles"][face[seen]]])
-    if panel["pattern"] == "circles":
+    if panel["pattern"] == "doughnut":
+        parity = None
+    elif panel["pattern"] == "circles":
         parity = in_circles(source, np.ptp(flat, axis=0).max() / panel["count"])
     elif panel["pattern"] == "square":
         square = np.ptp(flat, axis=0).max() / panel["count"]
@@ -173,8 +206,9 @@ def draw_grid(axes, panel, load):
         radius = np.hypot(source[:, 0], source[:, 1])
         parity = np.floor(np.arctan2(source[:, 1], source[:, 0]) / sector + OFFSET)
         parity += np.floor(np.log(radius) / sector if panel["pattern"] == "polar" else radius * panel["count"] / 3)
-    colours = np.where(parity[:, None] % 2 == 1, CHECKER[0], CHECKER[1])
-    colours[data["mu"][face[seen]] >= 1] = FLIPPED[:3]
+    colours = doughnut(source) if parity is None else np.where(parity[:, None] % 2 == 1, CHECKER[0], CHECKER[1])
+    if panel["domain"] != "source":
+        colours[data["mu"][face[seen]] >= 1] = FLIPPED[:3]
     picture = np.ones((pixels, pixels, 3))
     picture[seen] = colours
     for i, (a, b) in enumerate(panel["segments"]):
@@ -213,7 +247,7 @@ def draw_histogram(axes, panel, load):
     bins = np.linspace(0, panel["max"], 101)
     for i, entry in enumerate(panel["series"]):
         data = load(entry["data"])
-        weights = areas_of(data)
+        weights = areas_of(data) if panel["weights"] == "area" else np.ones(len(data["mu"]))
         # What lies beyond the axis is counted in the last bin, flipped faces too.
         share, _ = np.histogram(np.minimum(data["mu"], panel["max"] * 0.999), bins, weights=weights)
         axes.step(bins[:-1], 100 * share / weights.sum(), where="post", label=entry["label"], linewidth=1,
@@ -223,14 +257,14 @@ def draw_histogram(axes, panel, load):
     axes.set_xlim(0, panel["max"])
     axes.set_ylim(0)
     axes.set_xlabel("|μ|", fontsize=8)
-    axes.set_ylabel("% of the area", fontsize=8)
+    axes.set_ylabel("% of the area" if panel["weights"] == "area" else "% of the triangles", fontsize=8)
     axes.tick_params(labelsize=7)
     if any(entry["label"] for entry in panel["series"]):
         axes.legend(fontsize=7, frameon=False)
 
 
 def draw_curves(axes, panel, load):
-    plot = axes.loglog if panel["logarithmic"] else axes.plot
+    plot = axes.loglog if panel["logarithmic"] else axes.semilogy if panel.get("log_y") else axes.plot
     for entry in panel["series"]:
         plot(entry["x"], entry["y"], "o-" if panel["logarithmic"] else "-", markersize=3, linewidth=1,
              label=entry["label"])
@@ -242,6 +276,10 @@ def draw_curves(axes, panel, load):
         axes.yaxis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)))
         axes.yaxis.set_major_formatter(ticker.FormatStrFormatter("%g"))
         axes.yaxis.set_minor_formatter(ticker.NullFormatter())
+        if max(max(entry["x"]) for entry in panel["series"]) < 100 * min(min(entry["x"]) for entry in panel["series"]):
+            axes.xaxis.set_major_locator(ticker.LogLocator(subs=(1, 2, 4, 8)))
+            axes.xaxis.set_major_formatter(ticker.FormatStrFormatter("%g"))
+            axes.xaxis.set_minor_formatter(ticker.NullFormatter())
     if any(entry["label"] for entry in panel["series"]):
         if panel["logarithmic"]:
             axes.legend(fontsize=7, frameon=False, loc="upper left", bbox_to_anchor=(1.0, 1.0))
@@ -378,6 +416,9 @@ def save(full, path, flat):
 
 def shape(panel, load):
     """Width over height, limited on both sides."""
+    if panel["kind"] == "lines":
+        points = np.concatenate([np.array(line) for group in panel["groups"] for line in group["lines"]])
+        return float(np.clip(np.divide(*np.ptp(points, axis=0)), 0.4, 2.5))
     if panel["kind"] in ("histogram", "curves"):
         return 1.15 if len(panel["series"]) < 6 else 2.0
     data = load(panel["data"])
@@ -395,7 +436,7 @@ def main():
     source, target = Path(sys.argv[1]), Path(sys.argv[2])
     target.mkdir(parents=True, exist_ok=True)
     draw = {"map": draw_map, "grid": draw_grid, "histogram": draw_histogram, "curves": draw_curves, "surface": draw_surface,
-            "faces": draw_faces}
+            "faces": draw_faces, "lines": draw_lines}
     for picture in json.loads((source / "pictures.json").read_text()):
         panels = picture["panels"]
         if not panels:
@@ -428,7 +469,8 @@ def main():
             colours = matplotlib.cm.ScalarMappable(matplotlib.colors.Normalize(*scale), "viridis")
             figure.colorbar(colours, cax=grid.flat[bar]).ax.tick_params(labelsize=7)
             grid.flat[bar].set_box_aspect(16)
-        save(image_of(figure), target / (picture["name"] + ".png"), all(p["kind"] != "surface" for p in panels))
+        flat = all(p["kind"] != "surface" and p.get("pattern") != "doughnut" for p in panels)
+        save(image_of(figure), target / (picture["name"] + ".png"), flat)
         print(picture["name"])
 
 

@@ -23,8 +23,11 @@ const Page& prescribed() {
         "beyond.\n"
         "Boundaries that slide have a [page of their own](gallery-sliding.md).\n\n",
         {
+            {"figure_01", figure_01},
             {"figure_02", figure_02},
             {"figure_03", figure_03},
+            {"figure_05", figure_05},
+            {"figure_06", figure_06},
             {"figure_07", figure_07},
             {"figure_09", figure_09},
             {"figure_10", figure_10},
@@ -61,6 +64,8 @@ const Page& sliding() {
         "the statistics of |μ| over the faces, weighted by area; flips, linear solves, and seconds on a busy machine,\n"
         "everything included. Meshes: edge length h, 0.4 h at the holes, which have at least 30 vertices each.\n\n",
         {
+            {"sliding_given", sliding_given},
+            {"sliding_01", sliding_01},
             {"sliding_values", sliding_values},
             {"sliding_04", sliding_04},
             {"sliding_05", sliding_05},

@@ -87,7 +87,7 @@ nlohmann::json map_panel(const std::string& data, const std::string& title, doub
 /// The image of a planar mesh with a checkerboard of the source. pattern "polar": sectors and rings of their shape;
 /// "disk": sectors and rings of equal width; "square": so many squares to the larger side of the source.
 /// @param lines chains of vertices to draw
-/// "circles": small circles, so many to the larger side.
+/// "circles": small circles, so many to the larger side; "doughnut": a picture on .4 < |z| < 1.
 nlohmann::json grid_panel(const std::string& data, const std::string& title, const std::string& pattern = "polar",
                           int count = 24, const std::vector<std::vector<int>>& lines = {});
 /// Small circles of the source, so many to its larger side, on the source or on the image.
@@ -95,8 +95,10 @@ nlohmann::json grid_panel(const std::string& data, const std::string& title, con
 nlohmann::json circles_panel(const std::string& data, const std::string& title, const std::string& domain, int count,
                              const std::vector<std::pair<Complex, Complex>>& segments = {});
 /// Histograms of |μ|, one line each; a vertical line at k.
+/// @param weights "area", or "triangles": every triangle counts alike
 nlohmann::json histogram_panel(const std::vector<std::pair<std::string, std::string>>& labels_and_data,
-                               const std::string& title, std::optional<double> k = {}, double max_mu = 1);
+                               const std::string& title, std::optional<double> k = {}, double max_mu = 1,
+                               const std::string& weights = "area");
 /// Curves, in logarithmic axes unless told otherwise.
 struct Curve {
     std::string label;
@@ -110,6 +112,15 @@ nlohmann::json surface_panel(const std::string& data, const std::string& title, 
                              double azimuth, double elevation, int squares = 20, double max_mu = 1,
                              const std::vector<std::vector<int>>& highlights = {});
 
+/// Chains of points of the plane in one colour of matplotlib's.
+struct Lines {
+    std::string colour;
+    double width;
+    std::vector<std::vector<Complex>> lines;
+};
+nlohmann::json lines_panel(const std::vector<Lines>& groups, const std::string& title,
+                           const std::vector<std::pair<Complex, std::string>>& labels = {});
+
 /// The image of a map with the edges of its faces.
 nlohmann::json faces_panel(const std::string& data, const std::string& title);
 /// An SVG file of the data folder, a picture of its own.
@@ -117,6 +128,7 @@ nlohmann::json svg_panel(const std::string& file);
 
 /// Numbers for tables.
 std::string number(double value, int digits = 4);
+std::string scientific(double value);  ///< 1.2e-05
 /// Head and cells that most tables share.
 std::vector<std::string> usual_head(const std::string& first);
 std::vector<std::string> usual_row(const std::string& first, const Solved& solved);
@@ -150,8 +162,11 @@ struct Page {
 /// All pages; names of figures are unique among them.
 const std::vector<Page>& pages();
 
+Figure figure_01(Output& output);  ///< what μ means, and Teichmüller maps as compositions (Figs 1 and 4)
 Figure figure_02(Output& output);  ///< homotopy classes
 Figure figure_03(Output& output);  ///< a map that is extremal and not of Teichmüller type
+Figure figure_05(Output& output);  ///< trajectories at a zero and at a pole
+Figure figure_06(Output& output);  ///< |μ| of discrete conformal maps
 Figure figure_07(Output& output);  ///< known maps and prescribed boundary values, and convergence (with Fig. 8)
 Figure figure_09(Output& output);  ///< zeros of the differential appear
 Figure figure_10(Output& output);  ///< dependence on the start
@@ -171,6 +186,8 @@ Figure scan(Output& output);      ///< mcqc3d_planar_src.obj with its pins, if t
 Figure holes_27(Output& output);  ///< 27 holes
 
 // Boundaries that slide: beside Ng, Gu & Lui.
+Figure sliding_given(Output& output);     ///< given boundary values and the extremal ones (their Figs 1 to 3)
+Figure sliding_01(Output& output);        ///< maps with a given coefficient (Examples 1 to 3)
 Figure sliding_values(Output& output);    ///< known values of k
 Figure sliding_04(Output& output);        ///< their Example 4
 Figure sliding_05(Output& output);        ///< orders of convergence

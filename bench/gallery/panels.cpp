@@ -48,10 +48,10 @@ json circles_panel(const std::string& data, const std::string& title, const std:
 }
 
 json histogram_panel(const std::vector<std::pair<std::string, std::string>>& labels_and_data, const std::string& title,
-                     std::optional<double> k, double max_mu) {
+                     std::optional<double> k, double max_mu, const std::string& weights) {
     json series = json::array();
     for (const auto& [label, data] : labels_and_data) series.push_back({{"label", label}, {"data", data}});
-    json panel{{"kind", "histogram"}, {"series", series}, {"title", title}, {"max", max_mu}};
+    json panel{{"kind", "histogram"}, {"series", series}, {"title", title}, {"max", max_mu}, {"weights", weights}};
     if (k) panel["k"] = *k;
     return panel;
 }
@@ -71,6 +71,22 @@ json surface_panel(const std::string& data, const std::string& title, const std:
             {"squares", squares}, {"max", max_mu},      {"highlights", highlights}};
 }
 
+json lines_panel(const std::vector<Lines>& groups, const std::string& title, const std::vector<std::pair<Complex, std::string>>& labels) {
+    json list = json::array(), texts = json::array();
+    for (const Lines& group : groups) {
+        json lines = json::array();
+        for (const auto& line : group.lines) {
+            if (line.size() < 2) continue;
+            json points = json::array();
+            for (const Complex p : line) points.push_back({p.real(), p.imag()});
+            lines.push_back(std::move(points));
+        }
+        if (!lines.empty()) list.push_back({{"colour", group.colour}, {"width", group.width}, {"lines", std::move(lines)}});
+    }
+    for (const auto& [place, text] : labels) texts.push_back({place.real(), place.imag(), text});
+    return {{"kind", "lines"}, {"groups", std::move(list)}, {"labels", std::move(texts)}, {"title", title}};
+}
+
 json faces_panel(const std::string& data, const std::string& title) {
     return {{"kind", "faces"}, {"data", data}, {"title", title}};
 }
@@ -83,6 +99,10 @@ std::string number(double value, int digits) {
     if (std::isnan(value)) return "–";
     if (std::isinf(value)) return "∞";
     return fmt::format("{:.{}f}", value, digits);
+}
+
+std::string scientific(double value) {
+    return fmt::format("{:.1e}", value);
 }
 
 std::vector<std::string> usual_head(const std::string& first) {

@@ -30,10 +30,10 @@ TargetDomain circles_target(const std::vector<Hole>& holes) {
     return target_domain(TargetCurve::circle(0, 1), std::move(curves));
 }
 
-Mesh domain_mesh(const TargetDomain& domain, double h) {
+Mesh domain_mesh(const TargetDomain& domain, double h, double hole_h) {
     TargetMeshOptions options;
     options.edge_length = h;
-    options.hole_edge_length = 0.4 * h;
+    options.hole_edge_length = hole_h;
     return target_mesh(domain, options).mesh;
 }
 

@@ -13,8 +13,8 @@ using Hole = std::array<double, 3>;
 /// The unit disk with round holes: edge length @p h, 0.4 h at the holes, which have at least so many vertices each.
 Mesh disk_with_holes(const std::vector<Hole>& holes, double h, int least_vertices = 30);
 TargetDomain circles_target(const std::vector<Hole>& holes);
-/// A mesh of any target domain with the same edge lengths.
-Mesh domain_mesh(const TargetDomain& domain, double h);
+/// A mesh of any target domain: edge length @p h, @p hole_h at the holes.
+Mesh domain_mesh(const TargetDomain& domain, double h, double hole_h);
 /// A closed spline through @p points places r(t) e^{it} around a centre.
 TargetCurve polar_spline(Complex centre, const std::function<double(double)>& radius, int points = 64);
 /// Loops keep their numbers.

@@ -171,7 +171,7 @@ Figure sliding_distance(Output& output) {
     std::vector<Surface> surfaces;
     std::vector<std::string> names;
     for (const Named& shape : all) {
-        surfaces.emplace_back(domain_mesh(shape.domain, 0.05));
+        surfaces.emplace_back(domain_mesh(shape.domain, 0.05, 0.02));
         names.push_back(shape.name);
     }
     Correspondence wanted;

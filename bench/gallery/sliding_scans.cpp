@@ -1,6 +1,8 @@
 // Scans, if the folder BELTRAMI_MESHES has them: maps onto domains and surfaces, and grids.
 #include <beltrami/io/read_mesh.h>
+#include <beltrami/mesh/cut.h>
 #include <beltrami/mesh/subdivide.h>
+#include <beltrami/mesh/submesh.h>
 
 #include <algorithm>
 #include <cmath>
@@ -51,6 +53,37 @@ Mesh deformed(const Mesh& mesh) {
             p[1] + (high[1] - low[1]) * 0.12 * std::sin(3 * x), 1.3 * p[2];
     }
     return result;
+}
+
+/// An ellipse of the plane z = 0, along the axes.
+struct Ellipse {
+    double x, y, a, b;
+};
+
+/// A scan that looks along z, cut open along ellipses: faces that cross one are split there, but for vertices that are
+/// near it, which become vertices of the rim.
+Mesh opened(Mesh mesh, const std::vector<Ellipse>& ellipses) {
+    constexpr double near = 0.04;  // in half axes
+    for (const Ellipse& e : ellipses) {
+        // Where the ellipse is, the third coordinate is 0.
+        Mesh lifted = mesh;
+        for (int v = 0; v < mesh.vertex_count(); ++v) {
+            const double level = std::hypot((mesh.positions(v, 0) - e.x) / e.a, (mesh.positions(v, 1) - e.y) / e.b) - 1;
+            lifted.positions(v, 2) = std::abs(level) < near ? 0 : level;
+        }
+        CutMesh cut = cut_by_plane(lifted, {{0, 0, 1}, 0});
+        for (int v = 0; v < cut.mesh.vertex_count(); ++v) {
+            if (cut.vertices[v] >= 0) {
+                cut.mesh.positions.row(v) = mesh.positions.row(cut.vertices[v]);
+                continue;
+            }
+            const auto [i, j] = cut.edges[v];
+            const double t = lifted.positions(i, 2) / (lifted.positions(i, 2) - lifted.positions(j, 2));
+            cut.mesh.positions.row(v) = (1 - t) * mesh.positions.row(i) + t * mesh.positions.row(j);
+        }
+        mesh = largest_component(cut.mesh).mesh;
+    }
+    return mesh;
 }
 
 /// Writes a mesh in space with places of a plane as its map.
@@ -199,6 +232,17 @@ Figure sliding_12(Output& output) {
     if (const auto planar = scan_path("mcqc3d_planar_src.obj"))
         between(output, figure, table, "sliding_12_planar", "alex_3 onto mcqc3d_planar_src", face,
                 Surface(read_mesh(*planar).mesh), numbered(3));
+    if (const auto path_of_other = scan_path("human_face.obj")) {
+        // Eyes and mouth, as alex_3 has them.
+        const Surface second(opened(read_mesh(*path_of_other).mesh, {{-0.031, 0.2735, 0.0145, 0.0065},
+                                                                     {0.031, 0.2735, 0.0145, 0.0065},
+                                                                     {0, 0.2115, 0.026, 0.008}}));
+        between(output, figure, table, "sliding_12_scans", "alex_3 onto human_face, cut open at eyes and mouth", face, second);
+        between(output, figure, table, "sliding_12_scans_back", "human_face, cut open, onto alex_3", second, face);
+        figure.remarks.push_back("Two different scans: alex_3 and human_face, from which eyes and mouth are cut out by ellipses (" +
+                                 std::to_string(second.topology.boundary_loops.size()) + " loops, " +
+                                 std::to_string(second.mesh.face_count()) + " triangles); loops are matched by position.");
+    }
     figure.tables.push_back(std::move(table));
     figure.remarks.push_back(
         "By default the start is made on a coarse mesh, and the flips are those of that mesh; on the scan's own mesh "
