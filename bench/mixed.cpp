@@ -32,7 +32,7 @@ void print(const std::string& name, const std::string& h, const Surface& source,
            const std::optional<double>& exact_k = {}, const std::optional<Eigen::VectorXcd>& exact = {}) {
     const double before = now();
     try {
-        const MixedExtremalMap found = mixed_extremal_map(source, conditions);
+        const ExtremalMap found = mixed_extremal_map(source, conditions);
         const double seconds = now() - before;
         const std::string error =
             exact ? fmt::format("{:.1e}", (found.map.head(exact->size()) - *exact).cwiseAbs().maxCoeff()) : "";

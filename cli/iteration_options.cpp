@@ -29,10 +29,10 @@ void IterationOptions::add_to(CLI::App& app) {
                    "steps of other methods (1000)")
         ->check(CLI::PositiveNumber)
         ->type_name("N");
-    app.add_option(
-           "--evening", evening_,
-           "even |mu| out after the iteration: where-needed, where the map is still far from constant |mu| (the "
-           "default), always or never")
+    app.add_option("--evening", evening_,
+                   "even |mu| out after the iteration: where-needed, where boundary values are prescribed and the map "
+                   "is still far "
+                   "from constant |mu| (the default), always or never")
         ->check(CLI::IsMember({"where-needed", "always", "never"}));
     app.add_option("--p", power_,
                    "of --minimize max: the power mean of the last stage, at least 1 (default 128); a larger one comes "
@@ -48,7 +48,6 @@ void IterationOptions::check(const Use& use) const {
             refuse("--max-iterations", "says nothing about --method " + use.method + ", one linear solve");
     }
     if (evening_ && !extremal) refuse("--evening", "belongs to --method extremal");
-    if (evening_ && use.slides) refuse("--evening", "belongs to prescribed boundary values, with --onto they slide");
     if (power_ && (!extremal || use.slides)) refuse("--p", "belongs to --minimize max");
     if (tolerance_ && !(*tolerance_ > 0 && *tolerance_ < 1))
         throw Error(Cause::bad_option, "--tolerance must lie between 0 and 1", "give a number such as 1e-6");

@@ -1,8 +1,7 @@
 #include "slide_option.h"
 
-#include <algorithm>
-
 #include <beltrami/io/number_lists.h>
+#include <beltrami/mesh/boundary_position.h>
 
 namespace beltrami::cli {
 
@@ -19,12 +18,9 @@ std::vector<SlidingArc> SlideOption::arcs(const Surface& source, const BoundaryO
     std::vector<SlidingArc> result;
     if (!given()) return result;
     const IndexedRows rows = read_indexed_rows(path_, 2, source.mesh.vertex_count(), 0, "an arc");
-    const auto& loops = source.topology.boundary_loops;
     for (Eigen::Index i = 0; i < rows.indices.rows(); ++i) {
         SlidingArc arc{rows.indices(i, 0), rows.indices(i, 1)};
-        for (std::size_t l = 0; l < loops.size(); ++l)
-            if (std::find(loops[l].begin(), loops[l].end(), arc.first) != loops[l].end())
-                arc.along = boundary.curve(static_cast<int>(l));
+        if (const auto at = boundary_position(source.topology, arc.first)) arc.along = boundary.curve(at->loop);
         result.push_back(std::move(arc));
     }
     return result;

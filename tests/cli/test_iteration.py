@@ -57,8 +57,10 @@ class Options(Command):
         # The space of differentials has one dimension here: only the last steps of the boundary are left out.
         self.assertLessEqual(loose["solve"]["iterations"], plain["solve"]["iterations"])
         self.assertEqual(self.record(*arguments, "--max-iterations", "1")["solve"]["termination"], "iteration_limit")
-        text = self.run_command(*arguments, "--evening", "never", code=2).stderr
-        self.assertIn("--evening belongs to prescribed boundary values", text)
+        even = self.record(*arguments, "--evening", "always")["map"]
+        self.assertLess(even["mu"]["std"], plain["map"]["mu"]["std"])
+        self.assertAlmostEqual(even["k"], plain["map"]["k"], delta=1e-3)
+        self.assertEqual(self.record(*arguments, "--evening", "where-needed")["map"], plain["map"])
 
     def test_impossible_values(self):
         for arguments, says in (

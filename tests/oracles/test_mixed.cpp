@@ -18,12 +18,12 @@ namespace {
 
 using bench::MixedProblemCase;
 
-MixedExtremalMap solve(const MixedProblemCase& problem) {
+ExtremalMap solve(const MixedProblemCase& problem) {
     return mixed_extremal_map(Surface(problem.mesh), problem.conditions);
 }
 
 /// No folds, a settled iteration, the conditions obeyed, bounds in order and within one per cent.
-void expect_sound(const MixedExtremalMap& result) {
+void expect_sound(const ExtremalMap& result) {
     EXPECT_EQ(result.termination, Termination::converged);
     EXPECT_TRUE(result.one_to_one()) << result.distortion.flipped.size() << " flipped";
     EXPECT_EQ(result.boundary_residual, 0.0);
@@ -34,7 +34,7 @@ void expect_sound(const MixedExtremalMap& result) {
     for (const std::string& warning : result.warnings) ADD_FAILURE() << warning;
 }
 
-double vertex_error(const MixedProblemCase& problem, const MixedExtremalMap& result) {
+double vertex_error(const MixedProblemCase& problem, const ExtremalMap& result) {
     return (result.map.head(problem.exact->size()) - *problem.exact).cwiseAbs().maxCoeff();
 }
 
@@ -43,7 +43,7 @@ void expect_order(MixedProblemCase (*make)(double), double h, double k_error, do
     double last = 0;
     for (const double edge : {h, h / 2}) {
         const MixedProblemCase problem = make(edge);
-        const MixedExtremalMap result = solve(problem);
+        const ExtremalMap result = solve(problem);
         expect_sound(result);
         EXPECT_LT(std::abs(result.k - *problem.exact_k), k_error * edge * edge / (h * h));
         const double error = vertex_error(problem, result);
@@ -68,43 +68,43 @@ TEST(Mixed, SlidingHalfCircleIsTheExactMap) {
 }
 
 /// A map and its inverse have one k.
-void expect_one_k(const MixedExtremalMap& there, const MixedExtremalMap& back) {
+void expect_one_k(const ExtremalMap& there, const ExtremalMap& back) {
     expect_sound(there);
     expect_sound(back);
     EXPECT_NEAR(there.k, back.k, 5e-4);
 }
 
 TEST(Mixed, TwoSlidingHolesHaveOneKBothWays) {
-    const MixedExtremalMap there = solve(bench::two_sliding_holes(0.08, false, false));
+    const ExtremalMap there = solve(bench::two_sliding_holes(0.08, false, false));
     expect_one_k(there, solve(bench::two_sliding_holes(0.08, true, false)));
     EXPECT_GT(there.start_flips, 0);
     EXPECT_NEAR(there.k, 0.3902, 5e-4);
 }
 
 TEST(Mixed, TwoSlidingHolesAndAPinHaveOneKBothWays) {
-    const MixedExtremalMap there = solve(bench::two_sliding_holes(0.08, false, true));
+    const ExtremalMap there = solve(bench::two_sliding_holes(0.08, false, true));
     expect_one_k(there, solve(bench::two_sliding_holes(0.08, true, true)));
     EXPECT_NEAR(there.k, 0.4128, 1.5e-3);  // of h = .04; .4115 at this h
 }
 
 TEST(Mixed, PinsInASlidingDiskHaveOneKBothWays) {
     const MixedProblemCase two = bench::pins_in_sliding_disk(0.08, 2, false);
-    const MixedExtremalMap there = solve(two);
+    const ExtremalMap there = solve(two);
     expect_one_k(there, solve(bench::pins_in_sliding_disk(0.08, 2, true)));
     EXPECT_NEAR(there.k, *two.exact_k, 4e-4);
     EXPECT_EQ(there.dimension, 1);
-    const MixedExtremalMap three = solve(bench::pins_in_sliding_disk(0.08, 3, false));
+    const ExtremalMap three = solve(bench::pins_in_sliding_disk(0.08, 3, false));
     expect_one_k(three, solve(bench::pins_in_sliding_disk(0.08, 3, true)));
     EXPECT_NEAR(three.k, 0.08795, 3e-4);
     EXPECT_EQ(three.dimension, 3);
-    const MixedExtremalMap five = solve(bench::pins_in_sliding_disk(0.08, 5, false));
+    const ExtremalMap five = solve(bench::pins_in_sliding_disk(0.08, 5, false));
     expect_one_k(five, solve(bench::pins_in_sliding_disk(0.08, 5, true)));
     EXPECT_NEAR(five.k, 0.09707, 3e-4);
     EXPECT_EQ(five.dimension, 7);
 }
 
 TEST(Mixed, PrescribedArcsHaveOneKBothWays) {
-    const MixedExtremalMap there = solve(bench::two_prescribed_arcs(0.1, false, true));
+    const ExtremalMap there = solve(bench::two_prescribed_arcs(0.1, false, true));
     expect_one_k(there, solve(bench::two_prescribed_arcs(0.1, true, true)));
     EXPECT_NEAR(there.k, 0.2261, 5e-4);
 }
@@ -115,7 +115,7 @@ TEST(Mixed, ArcsThatSlideWinOverWhatIsPrescribed) {
     const Surface source(problem.mesh);
     const auto& loop = source.topology.boundary_loops[0];
     const Eigen::VectorXcd z = planar_coordinates(source.mesh);
-    const MixedExtremalMap expected = mixed_extremal_map(source, problem.conditions);
+    const ExtremalMap expected = mixed_extremal_map(source, problem.conditions);
     SlidingArc arc;
     for (const int v : loop) {
         if (std::abs(z[v] - 1.0) < 1e-9) arc.first = v;
@@ -123,14 +123,14 @@ TEST(Mixed, ArcsThatSlideWinOverWhatIsPrescribed) {
         if (z[v].imag() > 1e-12) problem.conditions.prescribed.pin(v, 7.0);  // nowhere
     }
     problem.conditions.arcs = {arc};
-    const MixedExtremalMap result = mixed_extremal_map(source, problem.conditions);
+    const ExtremalMap result = mixed_extremal_map(source, problem.conditions);
     EXPECT_EQ(result.map, expected.map);
 }
 
 /// Turning and scaling source or image changes nothing.
 TEST(Mixed, DoesNotChangeUnderSimilarities) {
     const MixedProblemCase problem = bench::two_prescribed_arcs(0.12, false, true);
-    const MixedExtremalMap plain = solve(problem);
+    const ExtremalMap plain = solve(problem);
     MixedProblemCase moved = problem;
     const Complex a = std::polar(2.5, 1.1), b(3, -1), c = std::polar(0.4, -0.6), d(-1, 2);
     for (int v = 0; v < moved.mesh.vertex_count(); ++v) {
@@ -139,7 +139,7 @@ TEST(Mixed, DoesNotChangeUnderSimilarities) {
     }
     for (Complex& image : moved.conditions.prescribed.images) image = c * image + d;
     moved.conditions.curves = {TargetCurve::circle(d, std::abs(c))};
-    const MixedExtremalMap result = solve(moved);
+    const ExtremalMap result = solve(moved);
     expect_sound(result);
     EXPECT_NEAR(result.k, plain.k, 1e-6);
     EXPECT_LT((result.map - (c * plain.map.array() + d).matrix()).cwiseAbs().maxCoeff(), 1e-4 * std::abs(c));
@@ -150,7 +150,7 @@ TEST(Mixed, IsTheSlidingProblemWhereAllSlides) {
     const Surface source(annulus(0.5, 1, 60));
     MixedConditions conditions;
     conditions.curves = {TargetCurve::circle(0, 1), TargetCurve::circle(0, 0.3)};
-    const MixedExtremalMap mixed = mixed_extremal_map(source, conditions);
+    const ExtremalMap mixed = mixed_extremal_map(source, conditions);
     expect_sound(mixed);
     ExtremalOptions options;
     options.space = ExtremalOptions::Space::laurent;
@@ -170,7 +170,7 @@ TEST(Mixed, IsThePrescribedProblemWhereAllIsPrescribed) {
         const Complex g = z[v] + 0.3 * z[v] * z[v];
         conditions.prescribed.pin(v, std::exp(0.6 * (g + 0.5 * std::conj(g))));
     }
-    const MixedExtremalMap mixed = mixed_extremal_map(source, conditions);
+    const ExtremalMap mixed = mixed_extremal_map(source, conditions);
     expect_sound(mixed);
     ExtremalOptions options;
     options.evening = ExtremalOptions::Evening::never;

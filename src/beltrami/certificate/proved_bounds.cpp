@@ -8,6 +8,7 @@
 #include <beltrami/certificate/modulus.h>
 #include <beltrami/certificate/refined_problem.h>
 #include <beltrami/constraints/boundary_feasibility.h>
+#include <beltrami/mesh/boundary_position.h>
 #include <beltrami/operators/distortion.h>
 
 namespace beltrami {
@@ -15,16 +16,15 @@ namespace beltrami {
 namespace {
 
 /// Loops of fewer vertices are taken for what they are.
-constexpr int kSampled = 24;
+constexpr std::size_t kSampled = 24;
 
 void take(ProvedBounds& result, const char* kind, double K, Bound::Of of = Bound::Of::extremal) {
     if (K > 1) result.bounds.push_back({kind, K, of, true});
 }
 
 bool is_sampled(const Surface& source, int vertex) {
-    for (const auto& loop : source.topology.boundary_loops)
-        if (std::find(loop.begin(), loop.end(), vertex) != loop.end()) return static_cast<int>(loop.size()) >= kSampled;
-    return false;
+    const auto at = boundary_position(source.topology, vertex);
+    return at && source.topology.boundary_loops[at->loop].size() >= kSampled;
 }
 
 /// Vertices inside that are pinned each alone.

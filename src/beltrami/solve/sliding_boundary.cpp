@@ -45,6 +45,11 @@ void for_arcs(const std::vector<char>& held, Visit visit) {
 
 }  // namespace
 
+double SlidingLoop::increment(int i) const {
+    const int n = static_cast<int>(parameters.size()), at = i % n;
+    return at + 1 < n ? parameters[at + 1] - parameters[at] : parameters[0] + curve.length() - parameters[at];
+}
+
 std::vector<double> guarded_increments(std::vector<double> wanted, const std::vector<double>& least,
                                        const std::vector<double>& most) {
     double excess = 0, below = 0, above = 0;
@@ -201,19 +206,16 @@ double SlidingBoundary::advance(const Eigen::VectorXcd& moved) {
             }
             step[i] = by;
         }
-        const auto increment = [&](int i, const std::vector<double>& of) {
-            return i % n + 1 < n ? of[i % n + 1] - of[i % n] : of[0] + length - of[n - 1];
-        };
         std::vector<double> next = l.parameters;
         for_arcs(l.held, [&](int first, int last) {
             const int count = last - first;
             const bool whole = !l.held[first % n];
             std::vector<double> wanted(count), least(count), most(count);
             double sum = 0, room = 0;
-            for (int i = first; i < last; ++i) sum += increment(i, l.parameters);
+            for (int i = first; i < last; ++i) sum += l.increment(i);
             bool fine = true;
             for (int i = first; i < last; ++i) {
-                const double present = increment(i, l.parameters);
+                const double present = l.increment(i);
                 double& want = wanted[i - first];
                 want = present + step[(i + 1) % n] - step[i % n];
                 least[i - first] = std::max(kLeastPart * present, std::min(rim.floors[i % n], present));
@@ -224,7 +226,7 @@ double SlidingBoundary::advance(const Eigen::VectorXcd& moved) {
             if (!fine && room < sum) {
                 wanted = guarded_increments(std::move(wanted), least, most);
             } else if (!fine) {
-                for (int i = first; i < last; ++i) wanted[i - first] = increment(i, l.parameters);
+                for (int i = first; i < last; ++i) wanted[i - first] = l.increment(i);
             }
             // Without a held vertex the mean movement is kept.
             double at = l.parameters[first % n];
@@ -250,6 +252,47 @@ double SlidingBoundary::advance(const Eigen::VectorXcd& moved) {
     return largest;
 }
 
+void SlidingBoundary::move(BoundaryCondition prescribed, const std::vector<SlidingLoop>& places) {
+    std::vector<char> moves(source_.mesh.vertex_count(), 0);
+    for (std::size_t i = 0; i < prescribed.vertices.size(); ++i)
+        moves[prescribed.vertices[i]] = prescribed.images[i] != prescribed_.images[i];
+    prescribed_ = std::move(prescribed);
+    for (SlidingLoop& l : loops_) {
+        const auto& vertices = source_.topology.boundary_loops[l.loop];
+        if (std::none_of(vertices.begin(), vertices.end(), [&](int v) { return moves[v]; })) continue;
+        const SlidingLoop& to =
+            *std::find_if(places.begin(), places.end(), [&](const SlidingLoop& at) { return at.loop == l.loop; });
+        const int n = static_cast<int>(vertices.size());
+        std::vector<double> next(n);
+        for_arcs(to.held, [&](int first, int last) {
+            double wanted = 0, present = 0;
+            for (int i = first; i < last; ++i) {
+                wanted += to.increment(i);
+                present += l.increment(i);
+            }
+            double at = to.parameters[first % n], turns = 0;
+            for (int i = first; i < last; ++i) {
+                next[i % n] = at - turns;
+                at += l.increment(i) * wanted / present;
+                if (i % n == n - 1) turns = l.curve.length();
+            }
+        });
+        l.parameters = std::move(next);
+    }
+}
+
+BoundaryCondition SlidingBoundary::in_place() const {
+    BoundaryCondition result = prescribed_;
+    std::vector<char> is_prescribed(source_.mesh.vertex_count(), 0);
+    for (const int v : prescribed_.vertices) is_prescribed[v] = 1;
+    for (const SlidingLoop& l : loops_) {
+        const auto& vertices = source_.topology.boundary_loops[l.loop];
+        for (std::size_t i = 0; i < vertices.size(); ++i)
+            if (!is_prescribed[vertices[i]]) result.pin(vertices[i], l.curve.point(l.parameters[i]));
+    }
+    return result;
+}
+
 void SlidingBoundary::adopt(const Eigen::VectorXcd& map) {
     for (SlidingLoop& l : loops_) {
         const auto& vertices = source_.topology.boundary_loops[l.loop];
@@ -264,11 +307,8 @@ void SlidingBoundary::adopt(const Eigen::VectorXcd& map) {
 double SlidingBoundary::least_increment() const {
     double least = std::numeric_limits<double>::infinity();
     for (const SlidingLoop& l : loops_) {
-        const std::size_t n = l.parameters.size();
-        for (std::size_t i = 0; i < n; ++i) {
-            const double next = i + 1 < n ? l.parameters[i + 1] : l.parameters[0] + l.curve.length();
-            least = std::min(least, (next - l.parameters[i]) * static_cast<double>(n) / l.curve.length());
-        }
+        const int n = static_cast<int>(l.parameters.size());
+        for (int i = 0; i < n; ++i) least = std::min(least, l.increment(i) * n / l.curve.length());
     }
     return least;
 }

@@ -14,6 +14,9 @@ struct SlidingLoop {
     /// Arc length of every vertex of the loop, in its order: ascending, the last less than length() above the first.
     std::vector<double> parameters;
     std::vector<char> held;  ///< 1 for vertices that stay where they are: marks, arcs that are prescribed
+
+    /// Arc length from one vertex to the next, counted on beyond the loop's end.
+    double increment(int i) const;
 };
 
 /// Boundary vertices that slide along curves, in steps that keep their order: what a linear solve may do with them, and
@@ -56,6 +59,15 @@ class SlidingBoundary {
     /// @param moved #V the result of the solve
     /// @return largest movement of a vertex, as part of its curve's length
     double advance(const Eigen::VectorXcd& moved);
+
+    /// Takes other images for what is prescribed. On a loop on which such a vertex moves the others keep their part of
+    /// the way between those beside them.
+    /// @param prescribed the same vertices
+    /// @param places of every loop on which a vertex moves: held are those that are prescribed, at their parameters
+    void move(BoundaryCondition prescribed, const std::vector<SlidingLoop>& places);
+
+    /// Everything prescribed, the vertices of loops where they stand.
+    BoundaryCondition in_place() const;
 
     /// Takes the parameters of a map whose boundary vertices lie on the curves, near where they are now.
     void adopt(const Eigen::VectorXcd& map);

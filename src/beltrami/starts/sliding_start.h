@@ -16,6 +16,7 @@ struct SlidingStart {
     std::vector<Waypoint> path;      ///< that was followed, in the model
     bool led = false;                ///< along the path; else the map is harmonic
     int flips = 0;                   ///< of the harmonic map
+    bool unfolded = false;           ///< its folds were opened
     int factorizations = 0;
 };
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include <beltrami/base/error.h>
+#include <beltrami/mesh/boundary_position.h>
 #include <beltrami/mesh/planar.h>
 
 namespace beltrami {
@@ -130,16 +131,13 @@ int curve_of_loop(const CircleDomainChart& chart, int loop) {
 
 /// The place on the circle domain of a boundary vertex of the target.
 CurveParameter place_on_circles(const Surface& target, const CircleDomainChart& chart, int vertex) {
-    const auto& loops = target.topology.boundary_loops;
-    int on = -1;
-    for (std::size_t l = 0; l < loops.size(); ++l)
-        if (std::find(loops[l].begin(), loops[l].end(), vertex) != loops[l].end()) on = static_cast<int>(l);
-    if (on < 0)
+    const std::optional<BoundaryPosition> on = boundary_position(target.topology, vertex);
+    if (!on)
         throw Error(Cause::bad_boundary,
                     "the mark's vertex " + std::to_string(vertex) + " is not on the boundary of the target",
                     "mark boundary vertices only", {vertex});
-    const RoundHole circle = chart.circle(on);
-    const int curve = curve_of_loop(chart, on);
+    const RoundHole circle = chart.circle(on->loop);
+    const int curve = curve_of_loop(chart, on->loop);
     const double angle = std::arg(chart.chart.vertices[vertex] - circle.centre);
     return {curve, circle.radius * (curve == 0 ? angle : -angle)};
 }

@@ -7,6 +7,7 @@
 
 #include <beltrami/locate/planar_locator.h>
 #include <beltrami/meshing/planar_domains.h>
+#include <beltrami/teichmuller/onto_problem.h>
 #include <beltrami/teichmuller/sliding_solver.h>
 
 namespace beltrami {
@@ -107,7 +108,8 @@ std::optional<SlidingStart> coarse_sliding_start(const Surface& source, const Ci
             if (waypoint.loop >= 0 && waypoint.loop < static_cast<int>(partner.size()))
                 waypoint.loop = partner[waypoint.loop];
     for (std::size_t l = 0; l < options.start_turns.size(); ++l) own.start_turns[partner[l]] = options.start_turns[l];
-    const ExtremalMap solved = SlidingSolver(coarse, coarse_onto, own, &target).solve();
+    const ExtremalMap solved =
+        SlidingSolver(std::make_unique<OntoProblem>(coarse, coarse_onto, own, &target), own).solve();
 
     SlidingStart result;
     result.move = solved.move;

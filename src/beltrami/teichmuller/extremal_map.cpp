@@ -1,7 +1,6 @@
 #include <beltrami/teichmuller/extremal_map.h>
 
 #include <beltrami/teichmuller/extremal_solver.h>
-#include <beltrami/teichmuller/mixed_conditions.h>
 
 namespace beltrami {
 
@@ -28,8 +27,6 @@ ExtremalMap extremal_map(const Mesh& source, const Constraints& constraints, con
 }
 
 ExtremalMap extremal_map(const Surface& source, const Constraints& constraints, const ExtremalOptions& options) {
-    if (!constraints.all_prescribed() && !constraints.all_slides())
-        return mixed_extremal_map(source, mixed_conditions(source, constraints, options.target_edge_length), options);
     return ExtremalSolver(source, constraints, options).solve();
 }
 

@@ -100,6 +100,11 @@ struct ExtremalMap : MapResult {
     bool led = false;            ///< the start was led along the way; else it is the harmonic map
     /// Faces that the harmonic map with the boundary of the start turns over (on the coarse mesh, if there was one).
     int start_flips = 0;
+    bool start_unfolded = false;  ///< folds of the start were opened before the iteration
+    /// How far φ of the space are from real along what slides, as part of their size: largest ‖Im φ τ²‖/‖φ‖; 0 where
+    /// it is not known.
+    double reality = 0;
+    double curve_residual = 0;  ///< largest distance of a vertex that slides from its curve
 
     // Onto a surface; the map is then one onto its circle domain:
     std::optional<CircleDomainChart> target_circles;  ///< that circle domain

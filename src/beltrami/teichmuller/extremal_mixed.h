@@ -22,14 +22,6 @@ struct MixedConditions {
     int outer_loop = 0;            ///< the boundary loop whose image encloses the others
 };
 
-/// The extremal map of a mixed problem.
-struct MixedExtremalMap : ExtremalMap {
-    bool start_unfolded = false;  ///< folds of the start were opened before the iteration
-    /// How far φ of the space are from real along what slides, as part of their size: largest ‖Im φ τ²‖/‖φ‖.
-    double reality = 0;
-    double curve_residual = 0;  ///< largest distance of a sliding vertex from its curve
-};
-
 /// The extremal quasiconformal map among all that obey mixed conditions: Hamilton's iteration as in extremal_map, with
 /// the differentials that are real along what slides (mixed_space.h, in the circle domain of the source) and an f-step
 /// in which sliding vertices move along their curves.
@@ -39,7 +31,7 @@ struct MixedExtremalMap : ExtremalMap {
 /// @param source  one component of genus 0 with a boundary; triangles or quads, in the plane or in space
 /// @param options tolerance 0 is 1e-6
 /// @throw Error bad_mesh, bad_boundary, bad_option, not_solved, cancelled
-MixedExtremalMap mixed_extremal_map(const Surface& source, const MixedConditions& conditions,
-                                    const ExtremalOptions& options = {});
+ExtremalMap mixed_extremal_map(const Surface& source, const MixedConditions& conditions,
+                               const ExtremalOptions& options = {});
 
 }  // namespace beltrami

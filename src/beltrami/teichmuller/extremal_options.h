@@ -25,6 +25,7 @@ struct ExtremalOptions : IterationOptions {
     /// Split edges and faces that the prescribed vertices nail down (prescribed_split.h): no solver can repair them.
     bool split_prescribed = true;
     /// Even |μ| out after the iteration (even_dilatation.h): where the map is still far from |μ| = k, always or never.
+    /// Where the boundary slides, in part or as a whole, only always does; sliding vertices then keep their places.
     enum class Evening { where_needed, always, never };
     Evening evening = Evening::where_needed;
     /// A disk in space is solved in the plane of its chart (chart_metric.h) and measured on the surface: quicker on

@@ -6,14 +6,14 @@
 
 namespace beltrami {
 
-class PiecewiseSolver;
-class SlidingSolver;
+class ProblemSolver;
 
-/// The extremal map of one source for boundary values that change: pins are dragged, the boundary is moved, and the
-/// map follows. The system's analysis, the chart and the space of differentials are kept; each new solve starts from
-/// the last φ, k and factorisation.
+/// The extremal map of one source for constraints that change: pins are dragged, also while the boundary slides, the
+/// boundary is moved, and the map follows. The system's analysis, the charts and the space of differentials are kept,
+/// for the vertices of the source that are prescribed stay the same; each new solve starts from the last φ, k and
+/// factorisation.
 ///
-///     ExtremalSolver solver(surface, boundary);
+///     ExtremalSolver solver(surface, constraints);
 ///     ExtremalMap first = solver.solve();
 ///     while (dragging) draw(solver.update(images, 4).map);
 ///     ExtremalMap last = solver.solve();
@@ -35,20 +35,19 @@ class ExtremalSolver {
         bool converged;
     };
 
-    /// Moves the prescribed vertices and iterates a few times from where the solver stands.
+    /// Moves the prescribed vertices and iterates a few times from where the solver stands. Vertices that slide stay on
+    /// their curves, between the same prescribed ones; marks stay where they are.
     /// Edges that the first images nailed down have been split; others are not looked for.
-    /// @param images         beside the vertices of the boundary condition
+    /// @param images         beside Constraints::prescribed.vertices; of what is inside arcs that slide not read
     /// @param max_iterations linear solves allowed, at least 1
+    /// @throw Error bad_boundary for images that no one-to-one map has; the solver then stands where it stood
     Update update(const std::vector<Complex>& images, int max_iterations = 4);
 
     /// Iterates until all has settled, finishes and measures. The record is that of extremal_map.
     ExtremalMap solve();
 
   private:
-    struct Implementation;
-    std::unique_ptr<Implementation> implementation_;
-    std::unique_ptr<PiecewiseSolver> pieces_;  ///< instead, where pinned curves cut the surface
-    std::unique_ptr<SlidingSolver> sliding_;   ///< instead, where boundaries slide
+    std::unique_ptr<ProblemSolver> solver_;
 };
 
 }  // namespace beltrami

@@ -4,6 +4,7 @@
 #include <string>
 
 #include <beltrami/base/error.h>
+#include <beltrami/mesh/boundary_position.h>
 #include <beltrami/starts/loop_partners.h>
 
 namespace beltrami {
@@ -12,9 +13,7 @@ namespace {
 
 /// The loop on which a vertex lies.
 int loop_of(const Surface& source, int vertex) {
-    const auto& loops = source.topology.boundary_loops;
-    for (std::size_t l = 0; l < loops.size(); ++l)
-        if (std::find(loops[l].begin(), loops[l].end(), vertex) != loops[l].end()) return static_cast<int>(l);
+    if (const auto at = boundary_position(source.topology, vertex)) return at->loop;
     throw Error(Cause::bad_boundary, "vertex " + std::to_string(vertex) + ", the end of an arc, is not on the boundary",
                 "an arc runs along a boundary loop from one of its vertices to another", {vertex});
 }

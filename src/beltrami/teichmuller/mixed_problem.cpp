@@ -13,25 +13,13 @@
 #include <beltrami/differentials/laurent_space.h>
 #include <beltrami/differentials/mixed_space.h>
 #include <beltrami/differentials/polynomial_space.h>
-#include <beltrami/starts/sliding_loops.h>
-#include <beltrami/starts/sliding_start.h>
-#include <beltrami/teichmuller/hamilton_options.h>
 #include <beltrami/teichmuller/problem.h>
-#include <beltrami/teichmuller/sliding_record.h>
-#include <beltrami/unfold/fold_free.h>
+#include <beltrami/teichmuller/sliding_feasibility.h>
 
 namespace beltrami {
 
 namespace {
 
-/// How many solves the system is ordered for.
-constexpr int kExpectedFactorizations = 8;
-/// Newton steps of the boundary after the iteration, each solved to this, until one moves no vertex by more than that
-/// part of its curve.
-constexpr int kLastSteps = 10;
-constexpr double kSettled = 1e-9, kLastMovement = 1e-7;
-/// Newton steps of the boundary where there are no differentials.
-constexpr int kConformalSteps = 100;
 /// Degree of the first space. Where the condition changes along a loop about half of all functions of a degree are
 /// admissible: twice as many are resolved, and fewer than so many describe nothing.
 constexpr int kFirstDegree = 8, kFirstMixedDegree = 12, kLargestMixedDegree = 24;
@@ -55,20 +43,60 @@ std::vector<int> pins_inside(const Surface& source, const MixedBoundary& boundar
     return result;
 }
 
+/// Vertices at which φ may have simple poles. (Where the condition changes along a loop it has a branch point.)
+std::vector<int> poles(const Surface& source, const MixedBoundary& boundary) {
+    std::vector<int> result = pins_inside(source, boundary);
+    for (const BoundaryCondition::Line& line : boundary.prescribed.lines) result.push_back(line.vertex);
+    for (std::size_t l = 0; l < boundary.held.size(); ++l) {
+        const std::vector<char>& held = boundary.held[l];
+        const std::size_t n = held.size();
+        for (std::size_t i = 0; i < n; ++i)
+            if (held[i] && !held[(i + 1) % n] && !held[(i + n - 1) % n])
+                result.push_back(source.topology.boundary_loops[l][i]);
+    }
+    std::sort(result.begin(), result.end());
+    return result;
+}
+
 /// Whether the boundary slides everywhere, marks apart.
 bool all_slides(const MixedBoundary& boundary) {
-    for (const auto& held : boundary.held)
-        for (std::size_t i = 0; i < held.size(); ++i)
-            if (held[i] && held[(i + 1) % held.size()]) return false;
-    return true;
+    return std::none_of(boundary.held.begin(), boundary.held.end(), has_arc);
+}
+
+PreparedProblem prepare_mixed(const Surface& source, const MixedConditions& conditions,
+                              const ExtremalOptions& options) {
+    options.validate();
+    require_genus_zero(source);
+    const auto& loops = source.topology.boundary_loops;
+    if (conditions.outer_loop < 0 || conditions.outer_loop >= static_cast<int>(loops.size()))
+        throw Error(Cause::bad_option, "there is no boundary loop " + std::to_string(conditions.outer_loop) +
+                                           ": the source has " + std::to_string(loops.size()));
+    const MixedBoundary boundary = mixed_boundary(source, conditions);
+    // Sliding vertices count as prescribed, somewhere outside: edges between them and others on the boundary are
+    // bridges, and nothing else about their places matters.
+    BoundaryCondition all = boundary.prescribed;
+    Complex middle = 0;
+    double reach = 1;
+    for (const Complex image : all.images) middle += image / static_cast<double>(all.images.size());
+    for (const Complex image : all.images) reach = std::max(reach, std::abs(image - middle));
+    for (std::size_t l = 0; l < loops.size(); ++l) {
+        const double step = 2 * std::numbers::pi / static_cast<double>(loops[l].size());
+        for (std::size_t i = 0; i < loops[l].size(); ++i)
+            if (!boundary.held[l][i])
+                all.pin(loops[l][i],
+                        middle + std::polar((4.0 + static_cast<double>(l)) * reach, step * static_cast<double>(i)));
+    }
+    return prepared(split_prescribed(source, all));
 }
 
 }  // namespace
 
-MixedDifferentials mixed_differentials(const Surface& source, const CircleDomainChart& domain,
-                                       const MixedBoundary& boundary, const Eigen::VectorXcd& start) {
-    MixedDifferentials result;
+AdmissibleDifferentials mixed_differentials(const Surface& source, const CircleDomainChart& domain,
+                                            const MixedBoundary& boundary, const Eigen::VectorXcd& start) {
+    AdmissibleDifferentials result;
     result.chart = domain.chart;
+    result.grows = true;
+    result.poles = poles(source, boundary);
     const std::vector<int> pins = pins_inside(source, boundary);
     const auto& lines = boundary.prescribed.lines;
     if (all_slides(boundary) && lines.empty()) {
@@ -115,194 +143,51 @@ MixedDifferentials mixed_differentials(const Surface& source, const CircleDomain
     return result;
 }
 
-PreparedProblem MixedProblem::prepare(const Surface& source, const MixedConditions& conditions,
-                                      const ExtremalOptions& options) {
-    options.validate();
-    require_genus_zero(source);
-    const auto& loops = source.topology.boundary_loops;
-    if (conditions.outer_loop < 0 || conditions.outer_loop >= static_cast<int>(loops.size()))
-        throw Error(Cause::bad_option, "there is no boundary loop " + std::to_string(conditions.outer_loop) +
-                                           ": the source has " + std::to_string(loops.size()));
-    const MixedBoundary boundary = mixed_boundary(source, conditions);
-    // Sliding vertices count as prescribed, somewhere outside: edges between them and others on the boundary are
-    // bridges, and nothing else about their places matters.
-    BoundaryCondition all = boundary.prescribed;
-    Complex middle = 0;
-    double reach = 1;
-    for (const Complex image : all.images) middle += image / static_cast<double>(all.images.size());
-    for (const Complex image : all.images) reach = std::max(reach, std::abs(image - middle));
-    for (std::size_t l = 0; l < loops.size(); ++l) {
-        const double step = 2 * std::numbers::pi / static_cast<double>(loops[l].size());
-        for (std::size_t i = 0; i < loops[l].size(); ++i)
-            if (!boundary.held[l][i])
-                all.pin(loops[l][i],
-                        middle + std::polar((4.0 + static_cast<double>(l)) * reach, step * static_cast<double>(i)));
-    }
-    return prepared(split_prescribed(source, all));
+MixedProblem::MixedProblem(const Surface& source, MixedConditions conditions, const ExtremalOptions& options,
+                           std::size_t marks)
+    : SlidingProblem(source, prepare_mixed(source, conditions, options), conditions.outer_loop,
+                     "boundary or prescribed"),
+      conditions_(std::move(conditions)),
+      marks_(marks),
+      boundary_(mixed_boundary(this->source(), conditions_)) {
+    feasible_places(boundary_);
 }
 
-MixedProblem::MixedProblem(const Surface& source, const MixedConditions& conditions, const ExtremalOptions& options)
-    : options_(options),
-      outer_loop_(conditions.outer_loop),
-      prepared_(prepare(source, conditions, options)),
-      source_(prepared_.surface_of(source)),
-      boundary_(mixed_boundary(source_, conditions)),
-      domain_(circle_domain_chart(source_, outer_loop_)) {}
-
-/// Vertices at which φ may have simple poles. (Where the condition changes along a loop it has a branch point.)
-std::vector<int> MixedProblem::poles() const {
-    std::vector<int> result = pins_inside(source_, boundary_);
-    for (const BoundaryCondition::Line& line : boundary_.prescribed.lines) result.push_back(line.vertex);
-    for (std::size_t l = 0; l < boundary_.held.size(); ++l) {
-        const std::vector<char>& held = boundary_.held[l];
-        const std::size_t n = held.size();
-        for (std::size_t i = 0; i < n; ++i)
-            if (held[i] && !held[(i + 1) % n] && !held[(i + n - 1) % n])
-                result.push_back(source_.topology.boundary_loops[l][i]);
-    }
-    std::sort(result.begin(), result.end());
+/// Where prescribed vertices stand on the loops that slide, if they can.
+std::vector<SlidingLoop> MixedProblem::feasible_places(const MixedBoundary& boundary) const {
+    std::vector<SlidingLoop> result = places_on_curves(source(), domain(), boundary);
+    require_feasible(source(), boundary, result, outer_loop());
     return result;
 }
 
-MixedStart MixedProblem::start() const {
-    MixedStart result = mixed_start(source_, domain_, boundary_);
+SlidingStart MixedProblem::start() const {
+    SlidingStart result = mixed_start(source(), domain(), boundary_);
+    result.curves.resize(boundary_.held.size());  // every loop has one of its own
+    std::iota(result.curves.begin(), result.curves.end(), 0);
+    SlidingBoundary(source(), result.loops, boundary_.prescribed).place(result.map);
     if (!all_slides(boundary_)) return result;
-    const std::size_t held = held_on_boundary(source_, boundary_).size(),
-                      inside = pins_inside(source_, boundary_).size();
-    hold_what_conformal_maps_move(result.loops, outer_loop_, held + 2 * inside);
+    const std::size_t held = held_on_boundary(source(), boundary_).size(),
+                      inside = pins_inside(source(), boundary_).size();
+    hold_what_conformal_maps_move(result.loops, outer_loop(), held + 2 * inside);
     return result;
 }
 
-MixedExtremalMap MixedProblem::solve() {
-    MixedStart start = this->start();
-    MixedExtremalMap result;
-    result.start = result.map = start.map;
-    result.start_flips = start.flips;
-    result.start_unfolded = start.unfolded;
-    result.factorizations = domain_.factorizations + start.factorizations;
-    if (prepared_.split) result.warnings.push_back(prepared_.split_warning("boundary or prescribed"));
-    result.warnings.insert(result.warnings.end(), domain_.chart.warnings.begin(), domain_.chart.warnings.end());
-
-    SlidingBoundary boundary(source_, std::move(start.loops), boundary_.prescribed);
-    boundary.place(result.map);
-    SlidingMapStep step(source_, boundary, result.map, kExpectedFactorizations);
-    MixedDifferentials phi = mixed_differentials(source_, domain_, boundary_, result.map);
-    result.warnings.insert(result.warnings.end(), phi.warnings.begin(), phi.warnings.end());
-    if (phi.space) {
-        iterate(std::move(phi), boundary, step, result);
-    } else {
-        settle_conformal(step, result);
-    }
-    result.factorizations += step.factorization_count();
-    record(boundary, result);
-    result.split = prepared_.split;
-    return result;
+AdmissibleDifferentials MixedProblem::differentials(const Eigen::VectorXcd& start, BeltramiSolver&) const {
+    return mixed_differentials(source(), domain(), boundary_, start);
 }
 
-void MixedProblem::iterate(MixedDifferentials phi, SlidingBoundary& boundary, SlidingMapStep& step,
-                           MixedExtremalMap& result) const {
-    CoefficientStep coefficient_step(source_, phi.chart, phi.singularities, phase_of(domain_, source_),
-                                     options_.cluster_count);
-    HamiltonIteration::Options how = sliding_iteration_options(options_);
-    how.growth = options_.growth;
-    how.grow_first = how.grow_last = true;
-    HamiltonIteration iteration(step, coefficient_step, how);
-    HamiltonState state;
-    iteration.run(state, std::move(phi.space));
-    result.history = iteration.history();
-    result.iterations = iteration.iterations();
-    result.termination = iteration.converged() ? Termination::converged : Termination::iteration_limit;
-    boundary.adopt(step.map());
-
-    // φ and k have settled; so may the boundary.
-    CoefficientStep::Result last = iteration.last_step();
-    const Eigen::VectorXcd nu = teichmueller_coefficient(last.k, last.phi);
-    for (int i = 0; i < kLastSteps && iteration.converged(); ++i) {
-        step.solve(nu, kSettled);
-        ++result.iterations;
-        if (step.movement() < kLastMovement) break;
-    }
-    result.map = step.map();
-    remove_folds(boundary, nu, result);
-    last = coefficient_step.solve(result.distortion.mu, last.direction);
-    result.phi = last.phi;
-    result.differential = {state.space, std::make_shared<Chart>(phi.chart), last.direction, poles(), {}};
-    result.dimension = state.space->size();
-    result.expected_dimension = phi.expected_dimension.value_or(result.dimension);
-    if (phi.expected_dimension && result.dimension != *phi.expected_dimension)
-        result.warnings.push_back("the space of differentials has dimension " + std::to_string(result.dimension) +
-                                  ", theory says " + std::to_string(*phi.expected_dimension));
-    if (const auto* space = dynamic_cast<const MixedSpace*>(state.space.get())) {
-        result.dimension_gap = space->fit().next / std::max(space->fit().last, 1e-16);
-        result.reality = space->fit().residual;
-    } else if (const auto* laurent = dynamic_cast<const LaurentSpace*>(state.space.get())) {
-        result.dimension_gap = laurent->fit().next / std::max(laurent->fit().residual, 1e-16);
-        result.reality = laurent->fit().residual;
-    }
-    record_sliding_bounds(reich_strebel(source_, result.differential, result.distortion.mu), last.k, result);
-}
-
-/// Measures the map, without folds where these can be opened.
-void MixedProblem::remove_folds(const SlidingBoundary& boundary, const Eigen::VectorXcd& nu,
-                                MixedExtremalMap& result) const {
-    result.distortion = distortion(source_.operators, result.map);
-    if (!options_.remove_folds || result.distortion.flipped.empty()) return;
-    std::vector<Freedom> freedom = boundary.freedoms();
-    std::replace(freedom.begin(), freedom.end(), Freedom::sliding, Freedom::fixed);
-    const FoldFreeMap opened = fold_free_map(source_, freedom, nu, result.map);
-    result.factorizations += opened.factorizations;
-    if (!opened.fold_free) return;
-    result.map = opened.map;
-    result.folds_removed = true;
-    result.distortion = distortion(source_.operators, result.map);
-}
-
-/// No differential is admissible: the extremal map is conformal.
-void MixedProblem::settle_conformal(SlidingMapStep& step, MixedExtremalMap& result) const {
-    const Eigen::VectorXcd nu = Eigen::VectorXcd::Zero(source_.operators.sample_count());
-    result.termination = Termination::iteration_limit;
-    while (result.iterations < kConformalSteps) {
-        step.solve(nu, kSettled);
-        ++result.iterations;
-        if (step.movement() < kSettled) {
-            result.termination = Termination::converged;
-            break;
-        }
-    }
-    result.map = step.map();
-    result.distortion = distortion(source_.operators, result.map);
-    result.phi = nu;
-    result.K_max = largest_dilatation(result.distortion);
-}
-
-void MixedProblem::record(const SlidingBoundary& boundary, MixedExtremalMap& result) const {
-    const BoundaryCondition& prescribed = boundary_.prescribed;
-    for (std::size_t i = 0; i < prescribed.vertices.size(); ++i)
-        result.boundary_residual =
-            std::max(result.boundary_residual, std::abs(result.map[prescribed.vertices[i]] - prescribed.images[i]));
-    for (const SlidingLoop& loop : boundary.loops()) {
-        const auto& vertices = source_.topology.boundary_loops[loop.loop];
-        for (std::size_t i = 0; i < vertices.size(); ++i)
-            if (!loop.held[i])
-                result.curve_residual = std::max(
-                    result.curve_residual, std::abs(result.map[vertices[i]] - loop.curve.point(loop.parameters[i])));
-    }
-    // Where arcs are prescribed these hold the loop open, and may leave the curve.
-    std::vector<int> own(boundary_.held.size());  // every loop has a curve of its own
-    std::iota(own.begin(), own.end(), 0);
-    result.loops = loops_onto(source_, boundary, own, result.map);
-    std::vector<LoopOnto> whole = result.loops;
-    std::erase_if(whole, [&](const LoopOnto& loop) {
-        const std::vector<char>& held = boundary_.held[loop.loop];
-        return std::find(held.begin(), held.end(), 1) != held.end();
-    });
-    require_not_collapsed(whole);
-    if (!result.distortion.flipped.empty())
-        result.warnings.push_back("flipped faces in the result: " + std::to_string(result.distortion.flipped.size()) +
-                                  "; it is not one-to-one there");
-    if (result.termination == Termination::iteration_limit)
-        result.warnings.push_back("stopped after " + std::to_string(result.iterations) +
-                                  " iterations before k and φ settled");
+std::vector<SlidingLoop> MixedProblem::move(const std::vector<Complex>& images) {
+    std::vector<Complex>& now = conditions_.prescribed.images;
+    if (images.size() + marks_ != now.size())
+        throw Error(Cause::bad_boundary, "there are " + std::to_string(images.size()) + " new images for " +
+                                             std::to_string(now.size() - marks_) + " prescribed vertices");
+    MixedConditions moved = conditions_;
+    std::copy(images.begin(), images.end(), moved.prescribed.images.begin());
+    MixedBoundary boundary = mixed_boundary(source(), moved);
+    std::vector<SlidingLoop> places = feasible_places(boundary);
+    conditions_ = std::move(moved);
+    boundary_ = std::move(boundary);
+    return places;
 }
 
 }  // namespace beltrami

@@ -212,7 +212,7 @@ bool push(const Surface& source, const std::vector<int>& vertices, const std::ve
 }
 
 /// Turns the loops without held vertices to where the harmonic map has least energy; whether any was.
-bool turn_loops(const Surface& source, const MixedBoundary& boundary, MixedStart& start) {
+bool turn_loops(const Surface& source, const MixedBoundary& boundary, SlidingStart& start) {
     const auto is_free = [](const SlidingLoop& loop) {
         return std::find(loop.held.begin(), loop.held.end(), 1) == loop.held.end();
     };
@@ -301,11 +301,24 @@ MixedBoundary mixed_boundary(const Surface& source, const MixedConditions& condi
     return result;
 }
 
-MixedStart mixed_start(const Surface& source, const CircleDomainChart& domain, const MixedBoundary& boundary) {
-    MixedStart result;
+bool has_arc(const std::vector<char>& held) {
+    for (std::size_t i = 0; i < held.size(); ++i)
+        if (held[i] && held[(i + 1) % held.size()]) return true;
+    return false;
+}
+
+std::vector<SlidingLoop> places_on_curves(const Surface& source, const CircleDomainChart& domain,
+                                          const MixedBoundary& boundary) {
+    std::vector<SlidingLoop> result;
     const Similarity similarity = fitted(domain.chart.vertices, boundary.prescribed);
     for (int l = 0; l < static_cast<int>(boundary.held.size()); ++l)
-        if (boundary.slides(l)) result.loops.push_back(LoopPlaces(source, domain, boundary, l, similarity).sliding(l));
+        if (boundary.slides(l)) result.push_back(LoopPlaces(source, domain, boundary, l, similarity).sliding(l));
+    return result;
+}
+
+SlidingStart mixed_start(const Surface& source, const CircleDomainChart& domain, const MixedBoundary& boundary) {
+    SlidingStart result;
+    result.loops = places_on_curves(source, domain, boundary);
     // Without what is constrained inside, which follows.
     std::vector<int> inside;
     for (const int v : boundary.prescribed.vertices)

@@ -6,8 +6,10 @@
 #include <beltrami/base/error.h>
 #include <beltrami/charts/domain_chart.h>
 #include <beltrami/constraints/boundary_feasibility.h>
+#include <beltrami/mesh/boundary_position.h>
 #include <beltrami/mesh/planar.h>
 #include <beltrami/mesh/subdivide.h>
+#include <beltrami/teichmuller/record.h>
 
 namespace beltrami {
 
@@ -132,12 +134,9 @@ void PiecewiseSolver::merge(std::vector<ExtremalMap>& parts, ExtremalMap& whole)
     // Pieces count their loops themselves.
     if (whole.sharpest) {
         whole.sharpest->loop = whole.sharpest->position = -1;
-        for (std::size_t l = 0; l < source_.topology.boundary_loops.size(); ++l) {
-            const auto& loop = source_.topology.boundary_loops[l];
-            const auto at = std::find(loop.begin(), loop.end(), whole.sharpest->vertex);
-            if (at == loop.end()) continue;
-            whole.sharpest->loop = static_cast<int>(l);
-            whole.sharpest->position = static_cast<int>(at - loop.begin());
+        if (const auto at = boundary_position(source_.topology, whole.sharpest->vertex)) {
+            whole.sharpest->loop = at->loop;
+            whole.sharpest->position = at->position;
         }
     }
     whole.differential = differential_of_pieces(parts, whole.phi);
@@ -145,9 +144,7 @@ void PiecewiseSolver::merge(std::vector<ExtremalMap>& parts, ExtremalMap& whole)
     whole.history = std::move(parts[decisive].history);
     whole.distortion = distortion(operators, whole.map);
     whole.K_max = largest_dilatation(whole.distortion);
-    for (std::size_t i = 0; i < boundary_.vertices.size(); ++i)
-        whole.boundary_residual =
-            std::max(whole.boundary_residual, std::abs(whole.map[boundary_.vertices[i]] - boundary_.images[i]));
+    record_residual(boundary_, whole);
     if (!paths_.empty()) whole.homotopy = homotopy_class(source_, paths_, whole.map, outer_loop_);
     merge_bounds(parts, whole);
     if (whole.termination == Termination::converged && whole.sharpest && corner_decides(*whole.sharpest, whole.K))

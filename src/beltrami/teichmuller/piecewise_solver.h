@@ -1,23 +1,21 @@
 #pragma once
 
-#include <beltrami/teichmuller/extremal_solver.h>
 #include <beltrami/teichmuller/pieces.h>
 #include <beltrami/teichmuller/prepared_problem.h>
+#include <beltrami/teichmuller/problem_solver.h>
 
 namespace beltrami {
 
-/// ExtremalSolver of a surface that pinned curves cut into pieces: a solver for each, and one record of the whole.
-class PiecewiseSolver {
+/// Solves problems whose pinned curves cut the surface into pieces: a solver for each, and one record of the whole.
+class PiecewiseSolver final : public ProblemSolver {
   public:
     /// @param source kept by reference
     /// @param pieces of the prepared surface, at least one
     PiecewiseSolver(const Surface& source, const Constraints& constraints, const ExtremalOptions& options,
                     PreparedProblem prepared, std::vector<ProblemPiece> pieces);
-    PiecewiseSolver(const PiecewiseSolver&) = delete;
 
-    /// As those of ExtremalSolver.
-    ExtremalSolver::Update update(const std::vector<Complex>& images, int max_iterations);
-    ExtremalMap solve();
+    ExtremalSolver::Update update(const std::vector<Complex>& images, int max_iterations) override;
+    ExtremalMap solve() override;
 
   private:
     std::string name(std::size_t piece) const;

@@ -8,6 +8,7 @@
 #include <beltrami/constraints/inner_constraints.h>
 #include <beltrami/differentials/polynomial_space.h>
 #include <beltrami/differentials/rational_space.h>
+#include <beltrami/mesh/boundary_position.h>
 #include <beltrami/plane/inside_polygon.h>
 
 namespace beltrami {
@@ -179,24 +180,20 @@ std::vector<Complex> continuation(const Surface& source, const Chart& chart, con
                                   Complex before) {
     std::vector<Complex> points;
     const Complex at = chart.vertices[vertex];
-    for (const auto& loop : source.topology.boundary_loops) {
-        const auto found = std::find(loop.begin(), loop.end(), vertex);
-        if (found == loop.end()) continue;
-        const auto i = static_cast<std::size_t>(found - loop.begin());
-        const Complex along =
-            chart.vertices[loop[(i + 1) % loop.size()]] - chart.vertices[loop[(i + loop.size() - 1) % loop.size()]];
-        const double edge = std::abs(at - before);
-        if (!(std::abs(along) > 0) || !(edge > 0)) break;
-        Complex direction = (at - before) / edge;
-        const Complex outward = Complex(0, -1) * along / std::abs(along);
-        if (std::real(direction * std::conj(outward)) < kLeastCosine) direction = outward;
-        const double reach = kFreePart * domain.free_way(at, direction, kReach / kFreePart);
-        if (domain.contains(at + 0.01 * reach * direction)) break;
-        double distance = 0;
-        for (double step = edge; distance + step <= reach; step *= 2)
-            points.push_back(at + (distance += step) * direction);
-        break;
-    }
+    const auto on = boundary_position(source.topology, vertex);
+    if (!on) return points;
+    const auto& loop = source.topology.boundary_loops[on->loop];
+    const std::size_t i = static_cast<std::size_t>(on->position), n = loop.size();
+    const Complex along = chart.vertices[loop[(i + 1) % n]] - chart.vertices[loop[(i + n - 1) % n]];
+    const double edge = std::abs(at - before);
+    if (!(std::abs(along) > 0) || !(edge > 0)) return points;
+    Complex direction = (at - before) / edge;
+    const Complex outward = Complex(0, -1) * along / std::abs(along);
+    if (std::real(direction * std::conj(outward)) < kLeastCosine) direction = outward;
+    const double reach = kFreePart * domain.free_way(at, direction, kReach / kFreePart);
+    if (domain.contains(at + 0.01 * reach * direction)) return points;
+    double distance = 0;
+    for (double step = edge; distance + step <= reach; step *= 2) points.push_back(at + (distance += step) * direction);
     return points;
 }
 

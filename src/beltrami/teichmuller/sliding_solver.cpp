@@ -2,247 +2,209 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <string>
 
-#include <beltrami/base/error.h>
-#include <beltrami/differentials/dimension.h>
-#include <beltrami/solve/dirichlet_solver.h>
 #include <beltrami/starts/sliding_loops.h>
-#include <beltrami/teichmuller/coarse_sliding_start.h>
 #include <beltrami/teichmuller/hamilton_options.h>
-#include <beltrami/teichmuller/onto_annulus.h>
-#include <beltrami/teichmuller/sliding_record.h>
-#include <beltrami/unfold/fold_free.h>
+#include <beltrami/teichmuller/record.h>
 
 namespace beltrami {
 
 namespace {
 
 /// How many solves the system is ordered for.
-constexpr int kExpectedFactorizations = 6;
-/// Newton steps of the boundary after the iteration, each solved to this, until one moves no vertex by more than this
-/// part of its curve.
+constexpr int kExpectedFactorizations = 8;
+/// Newton steps of the boundary after the iteration, each solved to this part of the map, …
 constexpr int kLastSteps = 10;
 constexpr double kSettled = 1e-9;
-/// … or by so little that what the step has left over is below that: the next one moves them by less than a hundredth.
+/// … until one moves no vertex by more than this part of its curve: what the step has left over is below that, and the
+/// next one moves them by less than a hundredth.
 constexpr double kLastMovement = 1e-7;
-/// Newton steps of the boundary where there are no differentials: the map is conformal.
+/// Newton steps of the boundary where there are no differentials.
 constexpr int kConformalSteps = 100;
-/// Points of the c-step on large meshes, and what sharper differences of φ ask for.
-constexpr int kClusters = 1500;
 
-/// Marked vertices in the order of the loops.
-std::vector<int> marked_vertices(const Surface& source, const std::vector<Mark>& marks) {
-    std::vector<int> result;
-    for (const auto& loop : source.topology.boundary_loops)
-        for (const int v : loop)
-            if (std::any_of(marks.begin(), marks.end(), [&](const Mark& mark) { return mark.vertex == v; }))
-                result.push_back(v);
-    return result;
+/// Whether an arc of a loop is prescribed, not only single vertices.
+bool has_prescribed_arc(const std::vector<int>& loop, const std::vector<char>& is_prescribed) {
+    for (std::size_t i = 0; i < loop.size(); ++i)
+        if (is_prescribed[loop[i]] && is_prescribed[loop[(i + 1) % loop.size()]]) return true;
+    return false;
 }
 
 }  // namespace
 
-PreparedProblem SlidingSolver::prepare(const Surface& source, const Constraints& constraints,
-                                       const ExtremalOptions& options) {
-    options.validate();
-    require_genus_zero(source);
-    validate(constraints, source);
-    const int loops = static_cast<int>(source.topology.boundary_loops.size());
-    if (!options.start_turns.empty() && static_cast<int>(options.start_turns.size()) != loops)
-        throw Error(Cause::bad_option, "start turns are given for " + std::to_string(options.start_turns.size()) +
-                                           " boundary loops, the source has " + std::to_string(loops));
-    return prepared(split_bridges(source));
-}
-
-SlidingSolver::SlidingSolver(const Surface& source, const Constraints& constraints, const ExtremalOptions& options,
-                             const TargetModel* target)
-    : options_(options),
-      prepared_(prepare(source, constraints, options)),
-      source_(prepared_.surface_of(source)),
-      wanted_(constraints.correspondence),
-      target_(target),
-      domain_(circle_domain_chart(source_, wanted_.outer_loop)) {
-    if (const SurfaceTarget* onto = constraints.surface()) {
-        target_surface_ = onto->surface;
-        target_circles_ = circle_domain_chart(*onto->surface, onto->outer_loop);
-        wanted_ = correspondence_on_circles(wanted_, *onto->surface, *target_circles_);
-    }
-    marked_ = marked_vertices(source_, wanted_.marks);
-    if (!target_) {
-        own_target_ = target_surface_
-                          ? target_model(circle_target(*target_circles_), 0)
-                          : target_model(*constraints.domain(),
-                                         edge_length_for(source, *constraints.domain(), options.target_edge_length));
-        target_ = own_target_.get();
-    }
-}
-
-SlidingStart SlidingSolver::start() const {
-    if (auto coarse = coarse_sliding_start(source_, domain_, *target_, wanted_, options_)) return std::move(*coarse);
-    return sliding_start(source_, domain_, *target_, wanted_, options_.start_turns);
-}
+SlidingSolver::SlidingSolver(std::unique_ptr<SlidingProblem> problem, const ExtremalOptions& options)
+    : options_(options), problem_(std::move(problem)) {}
 
 void SlidingSolver::begin() {
-    if (step_) return;
-    SlidingStart start = this->start();
-    hold_what_conformal_maps_move(start.loops, wanted_.outer_loop, marked_.size());
+    if (begun()) return;
+    SlidingStart start = problem_->start();
+    curves_ = std::move(start.curves);
+    begun_ = {};
     begun_.start = start.map;
     begun_.move = start.move;
-    begun_.path = start.path;
+    begun_.path = std::move(start.path);
     begun_.led = start.led;
     begun_.start_flips = start.flips;
-    begun_.expected_dimension =
-        dimension_of_differentials(static_cast<int>(domain_.holes.size()), static_cast<int>(marked_.size()));
-    begun_.factorizations = domain_.factorizations + target_->factorizations() + start.factorizations;
-    if (target_circles_) begun_.factorizations += target_circles_->factorizations;
-    curves_ = start.curves;
+    begun_.start_unfolded = start.unfolded;
+    begun_.factorizations = problem_->factorizations() + start.factorizations;
+    begun_.warnings = problem_->warnings();
 
-    boundary_.emplace(source_, start.loops);
-    step_.emplace(source_, *boundary_, start.map, kExpectedFactorizations);
-    phi_ = admissible_differentials(source_, domain_, options_.space, marked_, begun_.expected_dimension,
-                                    &step_->lend_solver());
+    boundary_.emplace(source(), std::move(start.loops), problem_->prescribed());
+    step_.emplace(source(), *boundary_, std::move(start.map), kExpectedFactorizations);
+    phi_ = problem_->differentials(begun_.start, step_->lend_solver());
     begun_.space = phi_.kind;
     begun_.dimension_gap = phi_.gap;
-    begun_.warnings = phi_.warnings;
-    begun_.dimension = phi_.space ? phi_.space->size() : 0;
+    begun_.warnings.insert(begun_.warnings.end(), phi_.warnings.begin(), phi_.warnings.end());
+    chart_ = std::make_shared<Chart>(std::move(phi_.chart));
     if (phi_.space)
-        coefficient_step_.emplace(source_, phi_.chart, Singularities{}, phase_of(domain_, source_), kClusters);
+        coefficient_step_.emplace(source(), *chart_, phi_.singularities, problem_->phase(), options_.cluster_count);
 }
 
 ExtremalMap SlidingSolver::solve() {
-    if (auto direct = crowded_annulus_onto_ring(source_, *target_, wanted_)) {
-        direct->factorizations += domain_.factorizations + target_->factorizations();
-        record_warnings(*direct);
-        direct->split = prepared_.split;
-        if (target_surface_) record_places(*direct);
-        return std::move(*direct);
-    }
-    begin();
-    ExtremalMap result = begun_;
-    if (coefficient_step_) {
-        settle(result);
+    ExtremalMap result;
+    if (std::optional<ExtremalMap> direct = problem_->direct()) {
+        result = std::move(*direct);
+        result.factorizations += problem_->factorizations();
+        result.warnings = problem_->warnings();
     } else {
-        settle_conformal(result);
+        begin();
+        result = begun_;
+        if (coefficient_step_) {
+            finish(settle(result), result);
+        } else {
+            solve_conformal(result);
+        }
+        result.factorizations += step_->factorization_count();
+        record_conditions(result);
     }
-    result.factorizations += step_->factorization_count();
-    record_loops(result);
-    record_warnings(result);
-    result.split = prepared_.split;
-    if (target_surface_) record_places(result);
+    record_shortcomings(result);
+    result.split = problem_->split();
+    problem_->record(result);
     return result;
 }
 
 ExtremalSolver::Update SlidingSolver::update(const std::vector<Complex>& images, int max_iterations) {
-    if (!images.empty())
-        throw Error(Cause::bad_boundary,
-                    "there are " + std::to_string(images.size()) + " new images, but nothing is prescribed");
+    move(images);
     begin();
-    const auto flipped = [&] {
-        return static_cast<int>(distortion(source_.operators, step_->derivatives()).flipped.size());
-    };
+    const auto flipped = [&] { return folded_samples(beltrami_coefficient(step_->derivatives())); };
     if (!coefficient_step_) {
-        const Eigen::VectorXcd nu = Eigen::VectorXcd::Zero(source_.operators.sample_count());
-        for (int i = 0; i < max_iterations && !(i > 0 && step_->movement() < kSettled); ++i) step_->solve(nu, kSettled);
-        return {step_->map(), 0, 0, flipped(), step_->movement() < kSettled};
+        int steps = 0;
+        const bool settled = settle_conformal(max_iterations, steps);
+        return {step_->map(), 0, 0, flipped(), settled};
     }
     HamiltonIteration::Options how = sliding_iteration_options(options_);
     how.max_iterations = max_iterations;
-    const HamiltonIteration iteration = iterate(how);
+    const HamiltonIteration iteration = iterate(std::move(how));
     return {step_->map(), iteration.last_step().k, iteration.history().back().change, flipped(), iteration.converged()};
 }
 
-HamiltonIteration SlidingSolver::iterate(const HamiltonIteration::Options& how) {
-    HamiltonIteration iteration(*step_, *coefficient_step_, how);
+/// Takes other images for what is prescribed; sliding vertices stay between the same ones as before.
+void SlidingSolver::move(const std::vector<Complex>& images) {
+    const std::vector<SlidingLoop> places = problem_->move(images);
+    if (!begun()) return;
+    boundary_->move(problem_->prescribed(), places);
+    Eigen::VectorXcd map = step_->map();
+    boundary_->place(map);
+    step_->set_map(std::move(map));
+}
+
+HamiltonIteration SlidingSolver::iterate(HamiltonIteration::Options how) {
+    HamiltonIteration iteration(*step_, *coefficient_step_, std::move(how));
     iteration.run(state_, std::move(phi_.space));
     boundary_->adopt(step_->map());
     return iteration;
 }
 
-void SlidingSolver::settle(ExtremalMap& result) {
-    const HamiltonIteration iteration = iterate(sliding_iteration_options(options_));
+/// φ and k settle, and then the boundary.
+FoundMap SlidingSolver::settle(ExtremalMap& result) {
+    HamiltonIteration::Options how = sliding_iteration_options(options_);
+    how.grow_first = how.grow_last = phi_.grows;
+    const HamiltonIteration iteration = iterate(std::move(how));
     result.history = iteration.history();
     result.iterations = iteration.iterations();
     result.termination = iteration.converged() ? Termination::converged : Termination::iteration_limit;
 
-    // φ and k have settled; so may the boundary.
-    CoefficientStep::Result last = iteration.last_step();
+    const CoefficientStep::Result& last = iteration.last_step();
     const Eigen::VectorXcd nu = teichmueller_coefficient(last.k, last.phi);
     for (int i = 0; i < kLastSteps && iteration.converged(); ++i) {
         step_->solve(nu, kSettled);
         ++result.iterations;
         if (step_->movement() < kLastMovement) break;
     }
-    result.map = step_->map();
-    result.distortion = distortion(source_.operators, result.map);
-    if (options_.remove_folds && !result.distortion.flipped.empty()) {
-        const FoldFreeMap opened = fold_free_map(source_, dirichlet_freedoms(source_), nu, result.map);
-        result.factorizations += opened.factorizations;
-        if (opened.fold_free) {
-            result.map = opened.map;
-            result.folds_removed = true;
-            result.distortion = distortion(source_.operators, result.map);
-        }
-    }
-    last = coefficient_step_->solve(result.distortion.mu, last.direction);
-    result.phi = last.phi;
-    std::vector<int> poles = marked_;
-    std::sort(poles.begin(), poles.end());
-    result.differential = {state_.space, std::make_shared<Chart>(phi_.chart), last.direction, std::move(poles), {}};
-    record_sliding_bounds(reich_strebel(source_, result.differential, result.distortion.mu), last.k, result);
+    return {step_->map(), last};
 }
 
-/// No differential is admissible: the extremal map is conformal.
-void SlidingSolver::settle_conformal(ExtremalMap& result) {
-    const Eigen::VectorXcd nu = Eigen::VectorXcd::Zero(source_.operators.sample_count());
-    result.termination = Termination::iteration_limit;
-    while (result.iterations < kConformalSteps) {
-        step_->solve(nu, kSettled);
-        ++result.iterations;
-        if (step_->movement() < kSettled) {
-            result.termination = Termination::converged;
-            break;
-        }
+/// |μ| is evened out, folds are opened; K and its bounds.
+void SlidingSolver::finish(FoundMap found, ExtremalMap& result) {
+    Finish finish(source(), nullptr, *coefficient_step_, boundary_->freedoms());
+    std::optional<FoundMap> before_evening;
+    if (options_.evening == ExtremalOptions::Evening::always) {
+        if (!finish.folded(found)) before_evening = found;
+        result.evened = finish.even_out(found);
     }
+    if (options_.remove_folds) result.folds_removed = finish.open_folds(found, boundary_->in_place());
+    finish.follow(found, 0);
+    result.factorizations += finish.factorizations();
+    record_space(*state_.space, phi_.expected_dimension, result);
+    record_bounds(found, before_evening, result);
+    result.differential = differential(found);
+    result.map = std::move(found.map);
+    result.phi = std::move(found.step.phi);
+}
+
+QuadraticDifferential SlidingSolver::differential(const FoundMap& found) const {
+    return {state_.space, chart_, found.step.direction, phi_.poles, {}};
+}
+
+void SlidingSolver::record_bounds(const FoundMap& found, const std::optional<FoundMap>& before_evening,
+                                  ExtremalMap& result) const {
+    result.distortion = distortion(source().operators, found.map);
+    const MeasuredMap best = better_for_bounds(found, before_evening, [&](const FoundMap& of) {
+        MeasuredMap measured{of, distortion(source().operators, of.map), {}};
+        measured.integrals = reich_strebel(source(), differential(of), measured.distortion.mu);
+        return measured;
+    });
+    record_sliding_bounds(best.integrals, best.found.step.k, result);
+}
+
+/// Steps of the boundary until it has settled, where no differential is admissible; whether it has.
+bool SlidingSolver::settle_conformal(int max_steps, int& steps) {
+    const Eigen::VectorXcd nu = Eigen::VectorXcd::Zero(source().operators.sample_count());
+    for (steps = 0; steps < max_steps;) {
+        step_->solve(nu, kSettled);
+        ++steps;
+        if (step_->movement() < kSettled) return true;
+    }
+    return false;
+}
+
+void SlidingSolver::solve_conformal(ExtremalMap& result) {
+    const bool settled = settle_conformal(kConformalSteps, result.iterations);
+    result.termination = settled ? Termination::converged : Termination::iteration_limit;
     result.map = step_->map();
-    result.distortion = distortion(source_.operators, result.map);
-    result.phi = nu;
+    result.distortion = distortion(source().operators, result.map);
+    result.phi = Eigen::VectorXcd::Zero(source().operators.sample_count());
     result.K_max = largest_dilatation(result.distortion);
 }
 
-void SlidingSolver::record_loops(ExtremalMap& result) const {
-    result.loops = loops_onto(source_, *boundary_, curves_, result.map);
-    require_not_collapsed(result.loops);
-    for (const Mark& mark : wanted_.marks) {
-        const CurveParameter& place = on_curve(mark);
-        for (const SlidingLoop& sliding : boundary_->loops())
-            if (curves_[sliding.loop] == place.curve)
-                result.boundary_residual = std::max(
-                    result.boundary_residual, std::abs(result.map[mark.vertex] - sliding.curve.point(place.parameter)));
+/// How far the map obeys its conditions.
+void SlidingSolver::record_conditions(ExtremalMap& result) const {
+    record_residual(problem_->prescribed(), result);
+    record_residual(problem_->marked(), result);
+    result.loops = loops_onto(source(), *boundary_, curves_, result.map);
+    std::vector<char> is_prescribed(source().mesh.vertex_count(), 0);
+    for (const int v : problem_->prescribed().vertices) is_prescribed[v] = 1;
+    std::vector<LoopOnto> whole;
+    for (std::size_t l = 0; l < result.loops.size(); ++l) {
+        const SlidingLoop& loop = boundary_->loops()[l];
+        const auto& vertices = source().topology.boundary_loops[loop.loop];
+        for (std::size_t i = 0; i < vertices.size(); ++i)
+            if (!is_prescribed[vertices[i]])
+                result.curve_residual = std::max(
+                    result.curve_residual, std::abs(result.map[vertices[i]] - loop.curve.point(loop.parameters[i])));
+        // Arcs hold their loop open, and may leave the curve.
+        if (!has_prescribed_arc(vertices, is_prescribed)) whole.push_back(result.loops[l]);
     }
-}
-
-void SlidingSolver::record_warnings(ExtremalMap& result) const {
-    if (prepared_.split) result.warnings.push_back(prepared_.split_warning("boundary"));
-    result.warnings.insert(result.warnings.end(), domain_.chart.warnings.begin(), domain_.chart.warnings.end());
-    if (result.dimension != result.expected_dimension)
-        result.warnings.push_back("the space of differentials has dimension " + std::to_string(result.dimension) +
-                                  ", theory says " + std::to_string(result.expected_dimension));
-    if (!result.distortion.flipped.empty())
-        result.warnings.push_back("flipped faces in the result: " + std::to_string(result.distortion.flipped.size()) +
-                                  "; it is not one-to-one there");
-    if (result.termination == Termination::iteration_limit)
-        result.warnings.push_back("stopped after " + std::to_string(result.iterations) +
-                                  " iterations before k and φ settled");
-}
-
-/// From the target's circle domain back to its faces.
-void SlidingSolver::record_places(ExtremalMap& result) const {
-    const std::vector<Complex> images(result.map.begin(), result.map.end());
-    result.places = locate_in_chart(*target_surface_, target_circles_->chart.vertices, images);
-    result.positions = positions_on(target_surface_->mesh, result.places);
-    result.target_circles = target_circles_;
+    require_not_collapsed(whole);
 }
 
 }  // namespace beltrami

@@ -288,3 +288,38 @@ TEST(SlidingMapStep, SlidesToTheConformalMapBesideAPrescribedLoop) {
     EXPECT_LT((map - z).cwiseAbs().maxCoeff(), 1e-8);
     for (const int v : surface.topology.boundary_loops[0]) EXPECT_EQ(map[v], z[v]);
 }
+
+TEST(SlidingBoundary, PrescribedVerticesMoveAndOthersKeepTheirPartOfTheWay) {
+    const Surface surface(disk(4));
+    SlidingLoop loop = circle_loop(surface);
+    const int n = static_cast<int>(loop.held.size());
+    const auto& vertices = surface.topology.boundary_loops[0];
+    loop.held[3] = loop.held[10] = 1;
+    BoundaryCondition prescribed;
+    for (const int i : {3, 10}) prescribed.pin(vertices[i], loop.curve.point(loop.parameters[i]));
+    SlidingBoundary boundary(surface, {loop}, prescribed);
+    SlidingLoop places = loop;
+    places.parameters[3] += 0.2;
+    places.parameters[10] -= 0.1;
+    for (std::size_t i : {0, 1}) prescribed.images[i] = loop.curve.point(places.parameters[i == 0 ? 3 : 10]);
+    boundary.move(prescribed, {places});
+    const SlidingLoop& moved = boundary.loops()[0];
+    EXPECT_NEAR(moved.parameters[3], places.parameters[3], 1e-14);
+    EXPECT_NEAR(moved.parameters[10], places.parameters[10], 1e-14);
+    const double between =
+        (loop.parameters[10] - loop.parameters[3] - 0.3) / (loop.parameters[10] - loop.parameters[3]);
+    for (int i = 3; i < 10; ++i) EXPECT_NEAR(moved.increment(i), between * loop.increment(i), 1e-12);
+    double sum = 0;
+    for (int i = 0; i < n; ++i) {
+        EXPECT_GT(moved.increment(i), 0);
+        sum += moved.increment(i);
+    }
+    EXPECT_NEAR(sum, loop.curve.length(), 1e-12);
+    Eigen::VectorXcd map = planar_coordinates(surface.mesh);
+    boundary.place(map);
+    EXPECT_EQ(map[vertices[3]], prescribed.images[0]);
+    // In place they are all prescribed where they stand.
+    const BoundaryCondition all = boundary.in_place();
+    EXPECT_EQ(all.vertices.size(), vertices.size());
+    for (std::size_t i = 0; i < all.vertices.size(); ++i) EXPECT_EQ(all.images[i], map[all.vertices[i]]);
+}

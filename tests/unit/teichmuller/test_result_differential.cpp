@@ -119,7 +119,7 @@ TEST(ResultDifferential, OfConditionsThatMix) {
          {bench::sliding_inner_circle(0.1), bench::two_prescribed_arcs(0.15, false, true)}) {
         SCOPED_TRACE(problem.name);
         const Surface source(problem.mesh);
-        const MixedExtremalMap result = mixed_extremal_map(source, problem.conditions);
+        const ExtremalMap result = mixed_extremal_map(source, problem.conditions);
         expect_carried(problem.mesh, result, 1e-12);
         const bool pinned = !problem.conditions.prescribed.vertices.empty();
         for (const int v : result.differential.poles) EXPECT_TRUE(pinned && !source.topology.on_boundary[v]);

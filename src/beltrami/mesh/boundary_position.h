@@ -1,0 +1,18 @@
+#pragma once
+
+#include <optional>
+
+#include <beltrami/mesh/topology.h>
+
+namespace beltrami {
+
+/// Where a vertex stands on the boundary.
+struct BoundaryPosition {
+    int loop;      ///< of Topology::boundary_loops
+    int position;  ///< in that loop
+};
+
+/// @return nothing for vertices that are not on the boundary
+std::optional<BoundaryPosition> boundary_position(const Topology& topology, int vertex);
+
+}  // namespace beltrami

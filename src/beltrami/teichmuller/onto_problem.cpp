@@ -1,0 +1,115 @@
+#include <beltrami/teichmuller/onto_problem.h>
+
+#include <algorithm>
+#include <string>
+
+#include <beltrami/base/error.h>
+#include <beltrami/differentials/dimension.h>
+#include <beltrami/teichmuller/coarse_sliding_start.h>
+#include <beltrami/teichmuller/onto_annulus.h>
+
+namespace beltrami {
+
+namespace {
+
+PreparedProblem prepare_onto(const Surface& source, const Constraints& constraints, const ExtremalOptions& options) {
+    options.validate();
+    require_genus_zero(source);
+    validate(constraints, source);
+    const int loops = static_cast<int>(source.topology.boundary_loops.size());
+    if (!options.start_turns.empty() && static_cast<int>(options.start_turns.size()) != loops)
+        throw Error(Cause::bad_option, "start turns are given for " + std::to_string(options.start_turns.size()) +
+                                           " boundary loops, the source has " + std::to_string(loops));
+    return prepared(split_bridges(source));
+}
+
+/// Marked vertices in the order of the loops.
+std::vector<int> marked_vertices(const Surface& source, const std::vector<Mark>& marks) {
+    std::vector<int> result;
+    for (const auto& loop : source.topology.boundary_loops)
+        for (const int v : loop)
+            if (std::any_of(marks.begin(), marks.end(), [&](const Mark& mark) { return mark.vertex == v; }))
+                result.push_back(v);
+    return result;
+}
+
+}  // namespace
+
+OntoProblem::OntoProblem(const Surface& source, const Constraints& constraints, const ExtremalOptions& options,
+                         const TargetModel* target)
+    : SlidingProblem(source, prepare_onto(source, constraints, options), constraints.correspondence.outer_loop,
+                     "boundary"),
+      options_(options),
+      wanted_(constraints.correspondence) {
+    make_target(source, constraints, target);
+    marked_ = marked_vertices(this->source(), wanted_.marks);
+}
+
+void OntoProblem::make_target(const Surface& source, const Constraints& constraints, const TargetModel* given) {
+    if (const SurfaceTarget* onto = constraints.surface()) {
+        target_surface_ = onto->surface;
+        target_circles_ = circle_domain_chart(*onto->surface, onto->outer_loop);
+        wanted_ = correspondence_on_circles(wanted_, *onto->surface, *target_circles_);
+    }
+    if (!given) {
+        own_target_ = target_surface_
+                          ? target_model(circle_target(*target_circles_), 0)
+                          : target_model(*constraints.domain(),
+                                         edge_length_for(source, *constraints.domain(), options_.target_edge_length));
+    }
+    target_ = given ? given : own_target_.get();
+}
+
+int OntoProblem::factorizations() const {
+    return SlidingProblem::factorizations() + target_->factorizations() +
+           (target_circles_ ? target_circles_->factorizations : 0);
+}
+
+std::optional<ExtremalMap> OntoProblem::direct() const {
+    return crowded_annulus_onto_ring(source(), *target_, wanted_);
+}
+
+SlidingStart OntoProblem::start() const {
+    std::optional<SlidingStart> result = coarse_sliding_start(source(), domain(), *target_, wanted_, options_);
+    if (!result) result = sliding_start(source(), domain(), *target_, wanted_, options_.start_turns);
+    hold_what_conformal_maps_move(result->loops, outer_loop(), marked_.size());
+    return std::move(*result);
+}
+
+AdmissibleDifferentials OntoProblem::differentials(const Eigen::VectorXcd&, BeltramiSolver& solver) const {
+    const int dimension =
+        dimension_of_differentials(static_cast<int>(domain().holes.size()), static_cast<int>(marked_.size()));
+    AdmissibleDifferentials result =
+        admissible_differentials(source(), domain(), options_.space, marked_, dimension, &solver);
+    result.expected_dimension = dimension;
+    result.poles = marked_;
+    std::sort(result.poles.begin(), result.poles.end());
+    return result;
+}
+
+BoundaryCondition OntoProblem::marked() const {
+    BoundaryCondition result;
+    for (const Mark& mark : wanted_.marks) {
+        const CurveParameter& place = on_curve(mark);
+        result.pin(mark.vertex, target_->domain().curve(place.curve).point(place.parameter));
+    }
+    return result;
+}
+
+std::vector<SlidingLoop> OntoProblem::move(const std::vector<Complex>& images) {
+    if (!images.empty())
+        throw Error(Cause::bad_boundary,
+                    "there are " + std::to_string(images.size()) + " new images, but nothing is prescribed");
+    return {};
+}
+
+/// From the target's circle domain back to its faces.
+void OntoProblem::record(ExtremalMap& result) const {
+    if (!target_surface_) return;
+    const std::vector<Complex> images(result.map.begin(), result.map.end());
+    result.places = locate_in_chart(*target_surface_, target_circles_->chart.vertices, images);
+    result.positions = positions_on(target_surface_->mesh, result.places);
+    result.target_circles = target_circles_;
+}
+
+}  // namespace beltrami

@@ -1,0 +1,109 @@
+#include <beltrami/teichmuller/pole_choice.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <beltrami/teichmuller/coarse_start.h>
+#include <beltrami/teichmuller/elongation.h>
+
+namespace beltrami {
+
+namespace {
+
+/// A corner is clear from this significance on (those of scans have 1 to 2.5), and where the image turns by so much
+/// (radians).
+constexpr double kClearCorner = 3, kSharpImage = 0.35;
+/// Directions of held vertices that turn by less (radians) are kept.
+constexpr double kTurned = 0.02;
+
+bool turns_image(const BoundaryCorner& corner) {
+    return std::abs(corner.image_angle - std::numbers::pi) > kSharpImage;
+}
+
+}  // namespace
+
+PoleChoice::PoleChoice(ExtremalProblem& problem, const BoundaryCondition& boundary,
+                       const std::vector<BoundaryCorner>& corners, const ExtremalOptions& options)
+    : problem_(problem), boundary_(boundary), corners_(corners), options_(options) {}
+
+std::ptrdiff_t PoleChoice::image_corners() const {
+    return std::count_if(corners_.begin(), corners_.end(), turns_image);
+}
+
+/// Whether no corner is more than what the outline of a scan has everywhere. In the plane of the chart φ then needs no
+/// poles: they would be fitted to single edges.
+bool PoleChoice::corners_are_noise() const {
+    return std::none_of(corners_.begin(), corners_.end(), [](const BoundaryCorner& corner) {
+        return corner.significance > kClearCorner || turns_image(corner);
+    });
+}
+
+HamiltonState PoleChoice::choose(ProblemChart charts, bool plain) {
+    const Surface& source = problem_.source();
+    const auto& loops = source.topology.boundary_loops;
+    HamiltonState state;
+    instead_ = std::move(charts.instead);
+    elongated_ = plain && loops.size() == 1 && boundary_.lines.empty() &&
+                 boundary_.vertices.size() == loops[0].size() && image_corners() > 2 &&
+                 is_elongated(source.operators, problem_.harmonic());
+    Singularities singularities = take_chart(std::move(charts.chart), problem_.harmonic());
+    // Corners that only a fine mesh would resolve need no poles; that they do not, the coarse problem shows. In a
+    // chart far from conformal poles at corners would see its errors as dilatation.
+    if (!elongated_ && (singularities.only_corners() || (instead_ && singularities.empty())) && plain &&
+        problem_.chart_is_round()) {
+        CoarseStart coarse = coarse_start(source, boundary_, problem_.chart(), problem_.phase(),
+                                          problem_.largest_degree(), options_, instead_ ? 0 : kCoarseStartPays);
+        if (coarse.tight) {
+            smooth_ = true;
+            state = std::move(coarse.state);
+            withheld_ = std::move(singularities);
+            singularities = {};
+        }
+    }
+    if (instead_ && !withheld_) singularities = take_instead(problem_.harmonic());
+    if (elongated_) singularities = {};
+    problem_.set_singularities(std::move(singularities), options_.cluster_count);
+    if (elongated_) problem_.coefficient_step().set_clip(clip_of_elongated(source.operators, problem_.harmonic()));
+    return state;
+}
+
+/// Makes a chart that of the problem; returns where φ may be singular in it.
+Singularities PoleChoice::take_chart(Chart chart, const Eigen::VectorXcd& at) {
+    const Surface& source = problem_.source();
+    Singularities result = singularities_of(source, chart, boundary_, corners_, at);
+    const bool plain = (options_.chart_metric || options_.slack > 0) && !elongated_ &&
+                       (result.empty() || result.only_corners()) && corners_are_noise();
+    held_alone_ = held_vertices(source, chart, boundary_, at);
+    problem_.set_chart(std::move(chart));
+    if (plain && problem_.take_chart_metric()) result = {};
+    smooth_ = result.empty();
+    return result;
+}
+
+Singularities PoleChoice::take_instead(const Eigen::VectorXcd& at) {
+    Chart chart = std::move(*instead_);
+    instead_.reset();
+    return take_chart(std::move(chart), at);
+}
+
+void PoleChoice::take_withheld(const Eigen::VectorXcd& map) {
+    if (instead_) *withheld_ = take_instead(map);
+    problem_.set_singularities(std::move(*withheld_), options_.cluster_count);
+    withheld_.reset();
+    smooth_ = false;
+}
+
+bool PoleChoice::follow(const Eigen::VectorXcd& map) {
+    HeldVertices now = held_vertices(problem_.source(), problem_.chart(), boundary_, map);
+    bool turned = false;
+    for (std::size_t i = 0; i < now.vertices.size(); ++i)
+        turned = turned || std::abs(std::imag(now.directions[i] * std::conj(held_alone_.directions[i]))) > kTurned;
+    if (!turned) return false;
+    held_alone_ = std::move(now);
+    problem_.set_singularities(singularities_of(problem_.source(), problem_.chart(), boundary_, corners_, map),
+                               options_.cluster_count);
+    return true;
+}
+
+}  // namespace beltrami

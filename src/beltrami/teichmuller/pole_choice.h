@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <beltrami/teichmuller/extremal_options.h>
+#include <beltrami/teichmuller/problem.h>
+#include <beltrami/teichmuller/problem_chart.h>
+
+namespace beltrami {
+
+/// In which chart φ of a prescribed problem is written down, where it may be singular there, and whether it is let: at
+/// corners that only a fine mesh would resolve poles are withheld until the bracket asks for them.
+class PoleChoice {
+  public:
+    /// All are kept by reference; corners are those of the boundary values as they are at choose().
+    PoleChoice(ExtremalProblem& problem, const BoundaryCondition& boundary, const std::vector<BoundaryCorner>& corners,
+               const ExtremalOptions& options);
+
+    /// Gives the problem its chart and singularities.
+    /// @param plain the iteration is to begin from the harmonic map, in its class
+    /// @return where it may begin, if the problem on a coarse mesh has shown that poles need not be
+    HamiltonState choose(ProblemChart charts, bool plain);
+    /// Lets φ have the singularities that were withheld, at a map.
+    void take_withheld(const Eigen::VectorXcd& map);
+    /// Lets poles follow the map at vertices held to lines one by one; whether any had turned.
+    bool follow(const Eigen::VectorXcd& map);
+
+    bool withheld() const { return withheld_.has_value(); }
+    bool smooth() const { return smooth_; }        ///< φ has no singularities
+    bool elongated() const { return elongated_; }  ///< see elongation.h
+
+  private:
+    std::ptrdiff_t image_corners() const;
+    bool corners_are_noise() const;
+    Singularities take_chart(Chart chart, const Eigen::VectorXcd& at);
+    Singularities take_instead(const Eigen::VectorXcd& at);
+
+    ExtremalProblem& problem_;
+    const BoundaryCondition& boundary_;
+    const std::vector<BoundaryCorner>& corners_;
+    const ExtremalOptions& options_;
+    HeldVertices held_alone_;       // as the space of differentials has them
+    std::optional<Chart> instead_;  // for φ that has singularities
+    std::optional<Singularities> withheld_;
+    bool smooth_ = true, elongated_ = false;
+};
+
+}  // namespace beltrami

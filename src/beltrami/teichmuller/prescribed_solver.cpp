@@ -1,0 +1,376 @@
+#include <beltrami/teichmuller/prescribed_solver.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <beltrami/base/error.h>
+#include <beltrami/constraints/boundary_feasibility.h>
+#include <beltrami/homotopy/continuation.h>
+#include <beltrami/homotopy/twist.h>
+#include <beltrami/mesh/planar.h>
+#include <beltrami/mesh/subdivide.h>
+#include <beltrami/teichmuller/boundary_slack.h>
+#include <beltrami/teichmuller/coarse_start.h>
+#include <beltrami/teichmuller/elongation.h>
+#include <beltrami/teichmuller/hamilton_options.h>
+#include <beltrami/teichmuller/outline.h>
+#include <beltrami/teichmuller/record.h>
+#include <beltrami/teichmuller/record_proofs.h>
+
+namespace beltrami {
+
+namespace {
+
+/// How many solves the system is ordered for.
+constexpr int kExpectedFactorizations = 8;
+/// Where evening out is to be expected, the iteration ends at this change of φ, its square of k, or after so many
+/// steps.
+constexpr double kRoughTolerance = 0.02;
+constexpr int kRoughIterations = 16;
+constexpr double kRoughRounding = 0.005, kRoughStep = 0.05;
+/// Width of the bracket, as part of K, from which on poles that were thought needless are needed.
+constexpr double kPolesNeeded = 0.01;
+/// In the plane of a chart the iteration ends once it moves by less than this part of the bracket.
+constexpr double kWithinBracket = 0.01;
+/// The bracket of a smooth problem, as part of K, times the number of samples, is smaller (a bump's .7).
+constexpr double kTightPerSample = 4;
+/// From here on coefficients of faces are too noisy for K even there.
+constexpr double kLargeCoefficient = 0.8;
+/// Of the map of which K is estimated with other boundary values.
+constexpr double kEstimateTolerance = 1e-4;
+/// Poles at held vertices follow the map so often.
+constexpr int kMostTurns = 4;
+/// Edges between two corners that are taken at their word.
+constexpr int kResolvedEdges = 12;
+
+/// Prescribed vertices of @p map put in their places.
+void prescribe(Eigen::VectorXcd& map, const BoundaryCondition& boundary) {
+    for (std::size_t i = 0; i < boundary.vertices.size(); ++i) map[boundary.vertices[i]] = boundary.images[i];
+}
+
+}  // namespace
+
+PrescribedSolver::PrescribedSolver(const Surface& source, const Constraints& constraints,
+                                   const ExtremalOptions& options, PreparedProblem prepared,
+                                   const std::string& obstacle)
+    : options_(options),
+      boundary_(constraints.prescribed),
+      wanted_(constraints.correspondence),
+      prepared_(std::move(prepared)),
+      source_(prepared_.surface_of(source)),
+      problem_(source_, boundary_, kExpectedFactorizations),
+      corners_(find_corners(source_, boundary_)),
+      poles_(problem_, boundary_, corners_, options_) {
+    if (prepared_.split) warnings_.push_back(prepared_.split_warning("prescribed"));
+    ProblemChart charts = chart_of_problem(source_, boundary_, corners_, wanted_.outer_loop, problem_.solver());
+    other_factorizations_ += charts.chart.factorizations;
+    warnings_.insert(warnings_.end(), charts.chart.warnings.begin(), charts.chart.warnings.end());
+    if (options_.slack > 0) take_slack(charts.chart);
+    state_ = poles_.choose(std::move(charts), has_plain_start());
+    if (source_.topology.boundary_loops.size() > 1)
+        paths_ = loop_paths(source_, problem_.chart().vertices, wanted_.outer_loop);
+    choose_start();
+    if (!obstacle.empty()) warnings_.push_back(obstacle);
+}
+
+/// Moves the boundary points as far as they may.
+void PrescribedSolver::take_slack(const Chart& chart) {
+    SlackBoundary slackened = slacken(source_, chart, boundary_, options_.slack);
+    slack_ = SlackReport{options_.slack, slackened.largest_move, slackened.energy_before, slackened.energy_after, 1};
+    given_boundary_ = std::move(boundary_);
+    boundary_ = std::move(slackened.boundary);
+    problem_.set_boundary(boundary_);
+    corners_ = find_corners(source_, boundary_);
+}
+
+bool PrescribedSolver::has_plain_start() const {
+    return !options_.start && !wanted_.waypoints && wanted_.turns.empty();
+}
+
+void PrescribedSolver::choose_start() {
+    Eigen::VectorXcd& map = found_.map;
+    map = problem_.harmonic();
+    if (options_.start) {
+        map = prepared_.split ? with_parents_means(*options_.start, prepared_.split->parents) : *options_.start;
+        prescribe(map, boundary_);
+    } else if (wanted_.waypoints) {
+        const Eigen::VectorXcd places = source_.in_plane() && wanted_.outer_loop == 0 ? planar_coordinates(source_.mesh)
+                                                                                      : problem_.chart().vertices;
+        map = follow(source_, Continuation(source_, places, wanted_.outer_loop, boundary_, *wanted_.waypoints)).map;
+    } else if (!wanted_.turns.empty()) {
+        map = start_in_class(source_, problem_.chart().vertices, wanted_.outer_loop, boundary_, wanted_.turns).map;
+    } else if (poles_.smooth() && !poles_.elongated() && !state_.space) {
+        state_ =
+            coarse_start(source_, boundary_, problem_.chart(), problem_.phase(), problem_.largest_degree(), options_)
+                .state;
+    }
+    start_ = state_.space ? Eigen::VectorXcd() : map;
+}
+
+/// Gives up the start that was asked for: a map so folded that the class of μ means nothing leads nowhere.
+void PrescribedSolver::start_again() {
+    const int folds = folded_samples(beltrami_coefficient(source_.operators, found_.map));
+    warnings_.push_back("from the start that was given the iteration ended with " + std::to_string(folds) +
+                        " flipped faces; the map comes from the " +
+                        (wanted_.waypoints || !wanted_.turns.empty() ? "start without it" : "harmonic start") +
+                        ", whose homotopy class may be another");
+    options_.start.reset();
+    state_ = {};
+    before_evening_.reset();
+    earlier_iterations_ += static_cast<int>(history_.size()) - 1;
+    history_.clear();
+    choose_start();
+    run();
+}
+
+ExtremalSolver::Update PrescribedSolver::update(const std::vector<Complex>& images, int max_iterations) {
+    if (images.size() != boundary_.images.size())
+        throw Error(Cause::bad_boundary, "there are " + std::to_string(images.size()) + " new images for " +
+                                             std::to_string(boundary_.images.size()) + " prescribed vertices");
+    BoundaryCondition moved = boundary_;
+    moved.images = images;
+    require_feasible(source_, moved, wanted_.outer_loop);
+    boundary_ = std::move(moved);
+    problem_.map_step().prescribe(prescribed_values(boundary_, source_), line_directions(boundary_, source_));
+    HamiltonIteration::Options how = iteration_options(options_);
+    how.max_iterations = max_iterations;
+    how.grow_first = how.grow_last = false;
+    history_.clear();
+    iterate(how);
+    const Eigen::VectorXcd mu = beltrami_coefficient(source_.operators, found_.map);
+    return {found_.map, found_.step.k, history_.back().change, folded_samples(mu), converged_};
+}
+
+ExtremalMap PrescribedSolver::solve() {
+    history_.clear();
+    earlier_iterations_ = 0;
+    run();
+    if (options_.start && finish().folded(found_)) start_again();
+    compare_outlines();
+    ExtremalMap result = record();
+    before_evening_.reset();
+    return result;
+}
+
+/// The iteration from where it stands, and what comes after it.
+void PrescribedSolver::run() {
+    using Evening = ExtremalOptions::Evening;
+    evened_ = false;
+    if ((problem_.singular() || poles_.withheld()) && !problem_.jumps() && options_.evening != Evening::never) {
+        iterate_roughly();
+        Finish early = finish();
+        evened_ = converged_ && !needs_poles() && early.uneven(found_, problem_.singular()) && even_out(early);
+        other_factorizations_ += early.factorizations();
+    }
+    if (!evened_) {
+        HamiltonIteration::Options rest = iteration_options(options_);
+        rest.max_iterations -= std::max(0, static_cast<int>(history_.size()) - 1);
+        if (rest.max_iterations > 0) iterate(rest);
+        if (needs_poles()) {
+            poles_.take_withheld(found_.map);
+            state_ = {};
+            return run();
+        }
+    }
+    Finish last = finish();
+    if (!evened_)
+        evened_ = (options_.evening == Evening::always ||
+                   (options_.evening == Evening::where_needed && last.uneven(found_, problem_.singular()))) &&
+                  even_out(last);
+    folds_removed_ = options_.remove_folds && last.open_folds(found_, boundary_);
+    other_factorizations_ += last.factorizations();
+    if (evened_ || folds_removed_) last.follow(found_, kFinishingStep);
+}
+
+/// Evening out moves φ more than the last digits of the iteration do.
+void PrescribedSolver::iterate_roughly() {
+    HamiltonIteration::Options rough = iteration_options(options_);
+    rough.tolerance = std::max(rough.tolerance, kRoughTolerance);
+    rough.k_tolerance = std::max(rough.k_tolerance, kRoughTolerance * kRoughTolerance);
+    rough.max_iterations = std::min(rough.max_iterations, kRoughIterations);
+    rough.step_below_change = kRoughStep;
+    rough.grow_last = false;
+    problem_.coefficient_step().set_least_rounding(kRoughRounding);
+    iterate(rough);
+    problem_.coefficient_step().set_least_rounding(0);
+}
+
+/// Runs the iteration, with poles that follow the map at vertices held to lines one by one.
+void PrescribedSolver::iterate(const HamiltonIteration::Options& how) {
+    iterate_once(how);
+    for (int turn = 0; turn < kMostTurns && poles_.follow(found_.map); ++turn) {
+        state_ = {};
+        iterate_once(how);
+    }
+}
+
+/// Runs the iteration from where it stands.
+void PrescribedSolver::iterate_once(const HamiltonIteration::Options& how) {
+    problem_.map_step().set_near(state_.space && problem_.solver().factorization_count() > 1);
+    problem_.map_step().set_map(found_.map);
+    HamiltonIteration iteration(problem_.step_in_domain(), problem_.coefficient_step(), adapted(how));
+    // Only a run from nothing needs a space to begin with, and its basis is costly.
+    iteration.run(state_, state_.space ? nullptr : first_space());
+    found_ = {problem_.map_step().map(), iteration.last_step()};
+    converged_ = iteration.converged();
+    // A run that goes on begins with where the last one ended.
+    const auto& steps = iteration.history();
+    history_.insert(history_.end(), steps.begin() + (history_.empty() ? 0 : 1), steps.end());
+}
+
+/// The options as they are in the metric of the iteration.
+HamiltonIteration::Options PrescribedSolver::adapted(HamiltonIteration::Options how) const {
+    if (problem_.chart_metric()) {
+        how.within_bracket = kWithinBracket;
+        how.tight = kTightPerSample / source_.operators.sample_count();
+    }
+    return how;
+}
+
+std::unique_ptr<DifferentialSpace> PrescribedSolver::first_space() const {
+    if (poles_.elongated()) return harmonic_square_space(source_, problem_.chart(), problem_.harmonic());
+    return problem_.starting_space(problem_.largest_degree());
+}
+
+/// Whether singularities that were thought needless are needed after all.
+bool PrescribedSolver::needs_poles() const {
+    return poles_.withheld() && bracket(found_.step) > kPolesNeeded;
+}
+
+Finish PrescribedSolver::finish() {
+    return {source_, problem_.chart_metric(), problem_.coefficient_step(), freedoms(boundary_, source_)};
+}
+
+bool PrescribedSolver::even_out(Finish& finish) {
+    if (!finish.folded(found_)) before_evening_ = found_;
+    return finish.even_out(found_);
+}
+
+/// K of other boundary values, by one f-step with the φ and k at hand and one c-step.
+double PrescribedSolver::estimate_with(const BoundaryCondition& other) {
+    FoundMap moved = found_;
+    prescribe(moved.map, other);
+    moved.map = problem_.solver().solve_near(
+        problem_.coefficient_on_source(problem_.coefficient_step().coefficient(moved.step.k, moved.step.phi)),
+        moved.map, moved.map, kEstimateTolerance);
+    finish().follow(moved, kFinishingStep, kFinishingSteps);
+    return dilatation(moved.step.k);
+}
+
+/// What the noise of the outline costs, or what slack has gained.
+void PrescribedSolver::compare_outlines() {
+    noise_.reset();
+    if (slack_) {
+        slack_->K_without = estimate_with(given_boundary_);
+    } else if (problem_.chart_metric()) {
+        noise_ = noise_of_outline(source_, problem_.chart(), boundary_,
+                                  [this](const BoundaryCondition& other) { return estimate_with(other); });
+    }
+}
+
+/// Everything that is measured on the final map, with φ of the last c-step.
+ExtremalMap PrescribedSolver::record() const {
+    ExtremalMap result;
+    result.map = found_.map;
+    result.harmonic = problem_.harmonic();
+    result.start = start_;
+    result.history = history_;
+    result.warnings = warnings_;
+    result.iterations = earlier_iterations_ + static_cast<int>(history_.size()) - 1;
+    result.evened = evened_;
+    result.folds_removed = folds_removed_;
+    result.factorizations = other_factorizations_ + problem_.solver().factorization_count();
+    result.termination = converged_ ? Termination::converged : Termination::iteration_limit;
+    result.split = prepared_.split;
+    result.slack = slack_;
+    result.noise = noise_;
+    record_homotopy(result);
+    result.distortion = distortion(source_.operators, found_.map);
+    result.differential = problem_.differential(state_.space, found_.step.direction);
+    result.phi = problem_.differential_on_source(found_.step.phi);
+    record_residual(boundary_, result);
+    record_bounds(result);
+    record_corners(result);
+    result.bounds.push_back(
+        {"mesh_harmonic", mesh_harmonic_bound(source_.operators, result.harmonic), Bound::Of::mesh, true});
+    record_attained(result);
+    record_shortcomings(result);
+    record_proofs(source_, boundary_, options_, result);
+    return result;
+}
+
+/// @throw Error not_solved if the turns that were wanted are lost
+void PrescribedSolver::record_homotopy(ExtremalMap& result) const {
+    if (paths_.empty()) return;
+    result.homotopy = homotopy_class(source_, paths_, found_.map, wanted_.outer_loop);
+    if (wanted_.turns.empty()) return;
+    for (const HoleTurns& hole : result.homotopy.holes)
+        if (hole.turns != wanted_.turns[hole.loop])
+            throw Error(Cause::not_solved,
+                        "the hole of loop " + std::to_string(hole.loop) +
+                            " has lost its turns: " + std::to_string(wanted_.turns[hole.loop]) +
+                            " were wanted, the map has " + std::to_string(hole.turns),
+                        "the mesh is too coarse to hold them: refine it, or ask for fewer", {hole.loop});
+}
+
+void PrescribedSolver::record_bounds(ExtremalMap& result) const {
+    if (const ChartMetric* metric = problem_.chart_metric()) {
+        const Distortion in_chart = distortion(metric->plane().operators, found_.map);
+        result.in_chart =
+            InChart{metric->chart_mean(), in_chart.mean, in_chart.standard_deviation, problem_.largest_degree()};
+    }
+    const SolutionBounds bounds = best_bounds();
+    result.K = std::min(bounds.K, largest_dilatation(result.distortion));
+    result.k = (result.K - 1) / (result.K + 1);
+    result.K_lower = bounds.K_lower;
+    result.bounds = bounds.bounds;
+    result.factorizations += bounds.factorizations;
+}
+
+SolutionBounds PrescribedSolver::best_bounds() const {
+    const Surface& domain = problem_.domain();
+    const MeasuredMap best = better_for_bounds(found_, before_evening_, [&](const FoundMap& found) {
+        MeasuredMap measured{found, distortion(domain.operators, found.map), {}};
+        measured.integrals =
+            reich_strebel(domain, problem_.chart(), *state_.space, found.step.direction, measured.distortion.mu);
+        return measured;
+    });
+    const auto& [map, step] = best.found;
+    return solution_bounds(
+        {domain, boundary_, problem_.chart(), *state_.space, step.direction, step.phi, step.k, map, best.distortion,
+         best.integrals, paths_, wanted_.outer_loop, wanted_.turns},
+        problem_.chart_metric() && !options_.sharpen && step.k < kLargeCoefficient ? -1 : options_.sharpen);
+}
+
+/// Corners of the boundary values, and what they force.
+void PrescribedSolver::record_corners(ExtremalMap& result) const {
+    result.corners = corners_;
+    for (const BoundaryCorner& corner : corners_)
+        // An infinite bound is that of an angle measured as none: no smooth data have it.
+        if (corner.safe_bound > 1 && std::isfinite(corner.safe_bound) && resolved(corner) &&
+            (!result.sharpest || corner.safe_bound > result.sharpest->safe_bound))
+            result.sharpest = corner;
+    if (!result.sharpest) return;
+    result.bounds.push_back({"corner", result.sharpest->safe_bound, Bound::Of::extremal, false});
+    // Where the bracket is closed, the corner is one of the mesh's outline and not of the problem.
+    const double K_max = largest_dilatation(result.distortion);
+    const bool proved = std::isfinite(K_max) && !corner_decides({.safe_bound = K_max}, result.K_lower);
+    if (converged_ && !proved && corner_decides(*result.sharpest, result.K)) {
+        result.termination = Termination::not_teichmuller;
+        result.warnings.push_back(corner_warning(*result.sharpest));
+    }
+}
+
+/// Whether enough edges run from a corner to the next ones of its loop for its angles and speeds to mean something:
+/// between teeth and in notches of a few edges they do not.
+bool PrescribedSolver::resolved(const BoundaryCorner& corner) const {
+    const int n = static_cast<int>(source_.topology.boundary_loops[corner.loop].size());
+    for (const BoundaryCorner& other : corners_) {
+        const int apart = std::abs(other.position - corner.position);
+        if (other.loop == corner.loop && apart > 0 && std::min(apart, n - apart) < kResolvedEdges) return false;
+    }
+    return true;
+}
+
+}  // namespace beltrami

@@ -1,0 +1,77 @@
+#include <beltrami/teichmuller/record.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <beltrami/differentials/laurent_space.h>
+#include <beltrami/differentials/mixed_space.h>
+
+namespace beltrami {
+
+namespace {
+
+/// Where the deviation exceeds this part of k, k is no more than a rough estimate; a smaller k says nothing.
+constexpr double kRough = 0.6, kLeastRoughK = 1e-3;
+/// Residuals below are rounding.
+constexpr double kLeastResidual = 1e-16;
+
+}  // namespace
+
+void record_residual(const BoundaryCondition& boundary, ExtremalMap& result) {
+    for (std::size_t i = 0; i < boundary.vertices.size(); ++i)
+        result.boundary_residual =
+            std::max(result.boundary_residual, std::abs(result.map[boundary.vertices[i]] - boundary.images[i]));
+}
+
+void record_attained(ExtremalMap& result) {
+    result.K_max = largest_dilatation(result.distortion);
+    if (std::isfinite(result.K_max)) result.bounds.push_back({"attained", result.K_max, Bound::Of::extremal, true});
+}
+
+void record_sliding_bounds(const ReichStrebel& integrals, double k, ExtremalMap& result) {
+    result.K = std::min(integrals.valid ? integrals.estimate : dilatation(k), largest_dilatation(result.distortion));
+    result.k = (result.K - 1) / (result.K + 1);
+    if (integrals.valid) {
+        result.K_lower = std::max(1.0, integrals.lower);
+        result.K_upper = integrals.upper;
+        // φ is real along circles, the mesh ends at their chords, and μ is not tangential to them: an error of
+        // second order that no quadrature sees.
+        result.bounds.push_back({"reich_strebel", result.K_lower, Bound::Of::extremal, false});
+        result.bounds.push_back({"reich_strebel_estimate", result.K, Bound::Of::extremal, false});
+        result.bounds.push_back({"reich_strebel_upper", result.K_upper, Bound::Of::extremal, false});
+    }
+    record_attained(result);
+}
+
+void record_space(const DifferentialSpace& space, std::optional<int> expected_dimension, ExtremalMap& result) {
+    result.dimension = space.size();
+    result.expected_dimension = expected_dimension.value_or(result.dimension);
+    if (const auto* mixed = dynamic_cast<const MixedSpace*>(&space)) {
+        result.dimension_gap = mixed->fit().next / std::max(mixed->fit().last, kLeastResidual);
+        result.reality = mixed->fit().residual;
+    } else if (const auto* laurent = dynamic_cast<const LaurentSpace*>(&space)) {
+        result.dimension_gap = laurent->fit().next / std::max(laurent->fit().residual, kLeastResidual);
+        result.reality = laurent->fit().residual;
+    }
+    if (result.dimension != result.expected_dimension)
+        result.warnings.push_back("the space of differentials has dimension " + std::to_string(result.dimension) +
+                                  ", theory says " + std::to_string(result.expected_dimension));
+}
+
+void record_shortcomings(ExtremalMap& result) {
+    if (!result.distortion.flipped.empty())
+        result.warnings.push_back("flipped faces in the result: " + std::to_string(result.distortion.flipped.size()) +
+                                  "; it is not one-to-one there" +
+                                  (result.K_lower > 1 ? "" : " and no lower bound can be given"));
+    if (result.termination == Termination::iteration_limit)
+        result.warnings.push_back("stopped after " + std::to_string(result.iterations) +
+                                  " iterations before k and φ settled");
+    if (result.k > kLeastRoughK &&
+        std::hypot(result.distortion.standard_deviation, result.distortion.mean - result.k) > kRough * result.k)
+        result.warnings.push_back(
+            "the map is far from constant dilatation: the mesh is too coarse for its shape, or the extremal map is not "
+            "smooth; K is a rough estimate and K_lower may be far below K*");
+}
+
+}  // namespace beltrami

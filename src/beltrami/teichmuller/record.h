@@ -1,0 +1,26 @@
+#pragma once
+
+#include <beltrami/constraints/boundary_condition.h>
+#include <beltrami/differentials/differential_space.h>
+#include <beltrami/teichmuller/extremal_map.h>
+
+namespace beltrami {
+
+/// Raises the residual of the result's map to the largest distance of one of these vertices from its image.
+void record_residual(const BoundaryCondition& boundary, ExtremalMap& result);
+
+/// K_max and the bound that the map itself is, of its distortion.
+void record_attained(ExtremalMap& result);
+
+/// K, k and the bounds of a map some of whose boundary slides.
+/// @param k of its last c-step
+void record_sliding_bounds(const ReichStrebel& integrals, double k, ExtremalMap& result);
+
+/// Of the space of differentials at the end what the result says where boundaries slide.
+/// @param expected_dimension where theory says it
+void record_space(const DifferentialSpace& space, std::optional<int> expected_dimension, ExtremalMap& result);
+
+/// The warnings about a map that is not one-to-one, has not settled or is far from constant dilatation.
+void record_shortcomings(ExtremalMap& result);
+
+}  // namespace beltrami
