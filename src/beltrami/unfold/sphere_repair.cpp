@@ -22,7 +22,7 @@ namespace {
 constexpr int kMostRings = 8;
 constexpr double kHemisphere = 0.05;   // least cosine of the angle from a patch' middle to its vertices
 constexpr double kLeastWeight = 1e-3;  // of a face, relative to the median, where folds are opened
-constexpr int kUntanglingSteps = 200;
+constexpr int kUnfoldingSteps = 200;
 
 /// The faces at every vertex.
 class FacesAround {
@@ -61,7 +61,7 @@ class Repair {
         for (int rings = 1; rings <= kMostRings && !result_.flipped.empty(); ++rings)
             pass(rings, result_.averaged, [&](const Patch& patch) { return averaged(patch); });
         for (int rings = 2; rings <= kMostRings && !result_.flipped.empty(); rings += 2)
-            pass(rings, result_.untangled, [&](const Patch& patch) { return untangled(patch); });
+            pass(rings, result_.unfolded, [&](const Patch& patch) { return unfolded(patch); });
         return std::move(result_);
     }
 
@@ -179,7 +179,7 @@ class Repair {
         }
     }
 
-    std::optional<Eigen::VectorXcd> untangled(const Patch& patch) const {
+    std::optional<Eigen::VectorXcd> unfolded(const Patch& patch) const {
         const FaceList& faces = patch.part.mesh.faces;
         Positions corners = corners_of(patch);
         std::vector<Freedom> freedoms;
@@ -203,7 +203,7 @@ class Repair {
             Surface surface(patch.part.mesh, std::move(corners));
             weigh(surface, patch);
             FoldFreeOptions options;
-            options.max_iterations = kUntanglingSteps;
+            options.max_iterations = kUnfoldingSteps;
             options.tolerance = 1e-2;
             return fold_free_map(surface, freedoms, Eigen::VectorXcd::Zero(surface.operators.sample_count()),
                                  patch.plane, options)

@@ -9,8 +9,8 @@ namespace beltrami {
 /// What was done about flipped faces of a map to the sphere.
 struct SphereRepair {
     std::vector<int> flipped;  ///< faces that are left, ascending
-    int averaged = 0;          ///< vertices put at a mean of their neighbours
-    int untangled = 0;         ///< vertices moved to open folds
+    int averaged = 0;          ///< vertices of patches put at means of their neighbours, patch by patch
+    int unfolded = 0;          ///< vertices of patches where folds were opened, likewise
 };
 
 /// Turns flipped faces of a map to the sphere up again, moving no more vertices than it has to: those of the flipped

@@ -23,8 +23,9 @@ namespace beltrami {
 
 namespace {
 
-constexpr int kMostIdealVertices = 3, kMostRoots = 8, kMostBarrierSteps = 60;
-constexpr double kBarrierSettled = 1e-2;  // relative fall of the energy in a step that is nearly full
+constexpr int kMostIdealVertices = 3, kMostBarrierSteps = 60;
+constexpr int kMostRoots = 8, kRootFaces = 5000;  // more roots on small meshes: up to so many faces in all
+constexpr double kBarrierSettled = 1e-2;          // relative fall of the energy in a step that is nearly full
 constexpr double kBarrierFull = 0.4;
 constexpr double kLeastHeight = 0.01;  // of a source triangle, relative to its longest side, where shapes count
 constexpr double kUnresolved = 1e-13;
@@ -104,12 +105,13 @@ class Mapping {
                 break;
         }
         if (!found && options_.fall_back && options_.method != SphereMethod::least_distortion) {
+            const std::string reason = failure_;
             found = least_distortion();
             result_.method = SphereMethod::least_distortion;
             result_.route = SphereRoute::fallback;
             result_.log_scale.resize(0);
             if (found)
-                result_.warnings.push_back("the map of least distortion on this mesh was taken instead: " + failure_);
+                result_.warnings.push_back("the map of least distortion on this mesh was taken instead: " + reason);
         }
         if (!found) refuse();
         finish();
@@ -177,12 +179,13 @@ class Mapping {
 
     /// Turns flipped faces up. @return whether none is left
     bool settle(CentredSphere sphere) {
-        result_.positions = std::move(sphere.points);
+        result_.positions = sphere.points;
         result_.centre_distance = sphere.centre_distance;
         const SphereRepair repair = repair_sphere_map(source_, faces_, result_.positions);
-        result_.moved += repair.averaged + repair.untangled;
-        if (repair.untangled > 0)
-            result_.route = SphereRoute::untangled;
+        result_.moved =
+            static_cast<int>(((result_.positions - sphere.points).rowwise().squaredNorm().array() > 0).count());
+        if (repair.unfolded > 0)
+            result_.route = SphereRoute::unfolded;
         else if (repair.averaged > 0)
             result_.route = SphereRoute::averaged;
         if (repair.flipped.empty()) return true;
@@ -200,12 +203,14 @@ class Mapping {
 
     /// Tutte's sphere from the first root that leaves no geodesic triangle flipped.
     bool tutte() {
-        for (const int root : tutte_roots(source_, kMostRoots)) {
+        const int most_roots = std::max(kMostRoots, kRootFaces / source_.mesh.face_count());
+        for (const int root : tutte_roots(source_, most_roots)) {
             std::optional<Positions> points = sphere_tutte(source_, root, areas_);
             ++result_.factorizations;
             if (!points) continue;
             result_.positions = std::move(*points);
             const std::vector<int> flipped = faces_.flipped(result_.positions);
+            result_.moved = 0;
             if (flipped.empty()) return true;
             if (settle(centred(result_.positions, areas_))) return true;
         }
@@ -287,12 +292,17 @@ class Mapping {
         for (int v = 0; v < source_.mesh.vertex_count(); ++v)
             if (!(areas_[v] > 0)) result_.positions.row(v) << 0, 0, 1;
         result_.distortion = distortion(source_.operators, result_.positions, result_.positions);
+        if (const std::vector<int>& flipped = result_.distortion.flipped; !flipped.empty())
+            result_.warnings.push_back(std::to_string(flipped.size()) + " faces, the first is face " +
+                                       std::to_string(flipped[0]) +
+                                       ", keep their orientation on the sphere, but not at every point where |mu| is "
+                                       "measured: they are quads that turn in, or nearly collapsed");
         find_unresolved(result_.positions);
         if (!result_.unresolved.empty()) result_.warnings.push_back(unresolved_sentence());
         if (result_.moved > 0)
             result_.warnings.push_back(std::to_string(result_.moved) +
-                                       " vertices were moved to turn faces up that came out flipped, as edges were "
-                                       "flipped on the way");
+                                       " vertices were moved to turn faces up that came out flipped between the "
+                                       "conformal images");
         if (result_.centre_distance > kOffCentre)
             result_.warnings.push_back(
                 "the centre of mass is off the sphere's centre: nearly half of the surface "
@@ -329,8 +339,8 @@ const char* to_string(SphereRoute route) {
             return "direct";
         case SphereRoute::averaged:
             return "averaged";
-        case SphereRoute::untangled:
-            return "untangled";
+        case SphereRoute::unfolded:
+            return "unfolded";
         case SphereRoute::fallback:
             return "fallback";
     }

@@ -19,10 +19,10 @@ const char* to_string(SphereMethod);
 
 /// What had to be done until no face was flipped.
 enum class SphereRoute {
-    direct,     ///< nothing
-    averaged,   ///< a few vertices were put at means of their neighbours
-    untangled,  ///< vertices were moved to open folds that this had left
-    fallback,   ///< least_distortion, as conformal equivalence did not do
+    direct,    ///< nothing
+    averaged,  ///< a few vertices were put at means of their neighbours
+    unfolded,  ///< vertices were moved to open folds that this had left
+    fallback,  ///< least_distortion, as conformal equivalence did not do
 };
 const char* to_string(SphereRoute);
 
@@ -45,7 +45,7 @@ struct SphereMap {
     Positions positions;        ///< #V×3 unit vectors; (0, 0, 1) at vertices without faces
     Eigen::VectorXd log_scale;  ///< #V: of conformal equivalence, log of the scale factor that makes chords from
                                 ///< lengths, up to a Möbius map; else empty
-    Distortion distortion;  ///< from the surface to the straight (chordal) faces between the points
+    Distortion distortion;      ///< from the surface to the straight (chordal) faces between the points
     SphereMethod method = SphereMethod::conformal_equivalence;  ///< that found it
     SphereRoute route = SphereRoute::direct;
     std::optional<int> ideal_vertex;

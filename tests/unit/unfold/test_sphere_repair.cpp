@@ -18,7 +18,7 @@ TEST(SphereRepair, LeavesAMapWithoutFlipsAlone) {
     const SphereRepair repair = repair_sphere_map(surface, SphereFaces(surface), points);
     EXPECT_EQ(points, surface.mesh.positions);
     EXPECT_TRUE(repair.flipped.empty());
-    EXPECT_EQ(repair.averaged + repair.untangled, 0);
+    EXPECT_EQ(repair.averaged + repair.unfolded, 0);
 }
 
 TEST(SphereRepair, TurnsFlippedFacesUpAndMovesLittleElse) {
