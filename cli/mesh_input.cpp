@@ -10,6 +10,7 @@
 #include <beltrami/mesh/diagnosis.h>
 #include <beltrami/mesh/repair.h>
 #include <beltrami/mesh/submesh.h>
+#include <beltrami/meshing/face_split.h>
 
 #include "words.h"
 
@@ -60,6 +61,16 @@ void require_indices(const Mesh& mesh) {
 }
 
 }  // namespace
+
+void cut_folded_quads(MeshInput& input, std::vector<std::string>& warnings) {
+    SplitMesh split = split_unusable_faces(input.mesh);
+    if (split.cut.empty()) return;
+    warnings.push_back(counted(split.cut.size(), "quad that folds was", "quads that fold were") +
+                       " cut into triangles; the first is face " + std::to_string(split.cut[0]));
+    std::vector<int> same(static_cast<std::size_t>(input.mesh.vertex_count()));
+    std::iota(same.begin(), same.end(), 0);
+    replace(input, std::move(split.mesh), same, split.faces, same);
+}
 
 double unit_of(double size) {
     if (!(size > 0) || !std::isfinite(size) || (size > 1e-60 && size < 1e60)) return 1;

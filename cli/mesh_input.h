@@ -28,6 +28,9 @@ struct MeshInput {
     int number_of(int file_vertex, const std::string& what) const;
 };
 
+/// Cuts the faces that no map can be measured on as they are, quads that fold, into triangles, with a warning.
+void cut_folded_quads(MeshInput& input, std::vector<std::string>& warnings);
+
 /// --weld, --orient, --keep-largest, --drop-unreferenced: what is to be mended of a mesh before anything else.
 class MeshInputOptions {
   public:

@@ -4,6 +4,7 @@
 #include <beltrami/io/extension.h>
 #include <beltrami/io/write_mesh.h>
 #include <beltrami/mesh/planar.h>
+#include <beltrami/sphere/stereographic_charts.h>
 
 #include "page.h"
 
@@ -79,6 +80,24 @@ void OutputOptions::write(const Mesh& source, const Eigen::VectorXcd& map, const
         write_mesh(path_,
                    {mesh_at(unit * source.positions, source.faces), points, columns_of(distortion), {}, attributes});
     }
+}
+
+void OutputOptions::check_seams() const {
+    if (!as_positions_ && lower_case_extension(path_) == ".off")
+        throw Error(Cause::bad_option, "-o " + path_ + ": OFF has one texture point a vertex, and this map has seams",
+                    "write an OBJ or a PLY, or positions with --as-positions");
+}
+
+void OutputOptions::write_sphere(const Mesh& source, const Positions& points, const Distortion& distortion,
+                                 const FileAttributes& attributes, double unit) const {
+    if (as_positions_) {
+        write_mesh(path_, {mesh_at(points, source.faces), {}, columns_of(distortion), {}, without_normals(attributes)});
+        return;
+    }
+    TextureCoordinates charts = stereographic_charts(source.faces, points);
+    charts.points = fit_.fitted(std::move(charts.points));
+    const Mesh whole = unit == 1 ? source : mesh_at(unit * source.positions, source.faces);
+    write_mesh(path_, {whole, {}, columns_of(distortion), {}, attributes, std::move(charts)});
 }
 
 void OutputOptions::write(const Mesh& source, const Positions& images, const Eigen::VectorXcd& map,

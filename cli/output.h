@@ -36,6 +36,12 @@ class OutputOptions {
     /// The same for a map onto a surface: vertices stand at their images there, with the plane map as vt.
     void write(const Mesh& source, const Positions& images, const Eigen::VectorXcd& map, const Distortion& distortion,
                const FileAttributes& attributes = {}) const;
+    /// The same for a map to the sphere: as positions, or as vt per face corner in a pair of stereographic charts.
+    /// @param points #V×3
+    void write_sphere(const Mesh& source, const Positions& points, const Distortion& distortion,
+                      const FileAttributes& attributes, double unit) const;
+    /// @throw Error bad_option if OUT's format cannot hold a map with seams and is to
+    void check_seams() const;
 
   private:
     std::string path_;

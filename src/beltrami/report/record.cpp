@@ -107,6 +107,16 @@ Json to_object(const UniformizationRecord& uniformization) {
     return object;
 }
 
+Json to_object(const SphereRecord& sphere) {
+    Json object = {{"method", to_string(sphere.method)}, {"route", to_string(sphere.route)}, {"moved", sphere.moved}};
+    if (sphere.ideal_vertex) object["ideal_vertex"] = *sphere.ideal_vertex;
+    object["residual"] = number(sphere.residual);
+    object["layout_error"] = number(sphere.layout_error);
+    object["centre_distance"] = number(sphere.centre_distance);
+    object["unresolved"] = {{"faces", sphere.unresolved}, {"area", number(sphere.unresolved_area)}};
+    return object;
+}
+
 Json to_object(const FlowRecord& flow) {
     Json object = {{"coefficient", flow.coefficient}};
     if (flow.target) object["target"] = *flow.target;
@@ -248,6 +258,23 @@ std::string lines_of(const UniformizationRecord& uniformization) {
     return text;
 }
 
+/// How the map to the sphere was found.
+std::string line_of(const SphereRecord& sphere) {
+    std::string text = "a sphere: no moduli; ";
+    switch (sphere.method) {
+        case SphereMethod::conformal_equivalence:
+            text += fmt::format("conformal equivalence, largest angle defect {:.1e}", sphere.residual);
+            break;
+        case SphereMethod::least_distortion:
+            text += "least mean distortion on this mesh";
+            break;
+        case SphereMethod::tutte:
+            text += "Tutte's map, not conformal";
+            break;
+    }
+    return text + "\n";
+}
+
 std::string cell(const std::optional<double>& value, int digits) {
     if (!value) return "";
     if (std::isnan(*value)) return "-";
@@ -348,6 +375,13 @@ UniformizationRecord uniformization_record(const Uniformization& result) {
     return {result.chart.outer_loop(), result.holes, result.moduli, result.module, result.chart.roundness};
 }
 
+SphereRecord sphere_record(const SphereMap& result) {
+    return {
+        result.method,         result.route,        result.moved,           result.ideal_vertex,
+        result.residual,       result.layout_error, result.centre_distance, static_cast<int>(result.unresolved.size()),
+        result.unresolved_area};
+}
+
 SolveRecord solve_record(const LeastMaximumMap& result, double seconds_total) {
     // Where rounding allows no better map, it has converged.
     const bool settled = result.fold_free && result.status != FoldFreeStatus::iteration_limit;
@@ -427,6 +461,7 @@ std::string to_json(const Record& record) {
                                   {"loops", std::move(loops)}};
     }
     if (record.uniformization) json["uniformization"] = to_object(*record.uniformization);
+    if (record.sphere) json["sphere"] = to_object(*record.sphere);
     if (record.flow) json["flow"] = to_object(*record.flow);
     if (record.grid) json["grid"] = to_object(*record.grid);
     if (record.distances) json["distances"] = to_object(*record.distances);
@@ -506,6 +541,7 @@ std::string to_remarks(const Record& record) {
         text += "\n";
     }
     if (record.uniformization) text += lines_of(*record.uniformization);
+    if (record.sphere) text += line_of(*record.sphere);
     if (record.flow)
         text += fmt::format(
             "coefficient: off by {:.3g} (root mean square), {:.3g} at most; relative residual {:.3g}, of it {:.3g} no "

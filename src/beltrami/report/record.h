@@ -12,6 +12,7 @@
 #include <beltrami/teichmuller/extremal_between.h>
 #include <beltrami/teichmuller/extremal_map.h>
 #include <beltrami/teichmuller/least_maximum.h>
+#include <beltrami/uniformize/sphere_map.h>
 
 namespace beltrami {
 
@@ -114,6 +115,17 @@ struct UniformizationRecord {
     double roundness = 0;
 };
 
+/// A closed surface on the sphere.
+struct SphereRecord {
+    SphereMethod method = SphereMethod::conformal_equivalence;
+    SphereRoute route = SphereRoute::direct;
+    int moved = 0;
+    std::optional<int> ideal_vertex;
+    double residual = 0, layout_error = 0, centre_distance = 0;
+    int unresolved = 0;
+    double unresolved_area = 0;
+};
+
 /// A map with a prescribed coefficient.
 struct FlowRecord {
     std::string coefficient;            ///< its file
@@ -159,6 +171,7 @@ struct Record {
     std::optional<OntoRecord> onto;
     std::optional<CorrespondenceRecord> correspondence;
     std::optional<UniformizationRecord> uniformization;
+    std::optional<SphereRecord> sphere;
     std::optional<FlowRecord> flow;
     std::optional<GridRecord> grid;
     std::optional<DistancesRecord> distances;
@@ -181,6 +194,7 @@ SolveRecord solve_record(const LeastMaximumMap& result, double seconds_total);
 CorrespondenceRecord correspondence_record(const ExtremalMapBetween& result, const std::string& target,
                                            std::size_t pairs);
 UniformizationRecord uniformization_record(const Uniformization& result);
+SphereRecord sphere_record(const SphereMap& result);
 CornersRecord corners_record(const ExtremalMap& result);
 /// @param source_vertices number of vertices before the split
 SplitRecord split_record(const SplitProblem& split, int source_vertices);
