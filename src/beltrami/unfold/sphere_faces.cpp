@@ -1,7 +1,10 @@
 #include <beltrami/unfold/sphere_faces.h>
 
+#include <algorithm>
+
 #include <Eigen/Geometry>
 
+#include <beltrami/mesh/quad_split.h>
 #include <beltrami/sphere/unit_sphere.h>
 
 namespace beltrami {
@@ -27,12 +30,12 @@ Eigen::Vector3d source_point(const Surface& source, int corner) {
 SphereFaces::SphereFaces(const Surface& source) : source_(source) {
     const FaceList& faces = source.mesh.faces;
     if (faces.corner_count() == 3 * faces.size()) return;
-    reflex_.resize(static_cast<std::size_t>(faces.size()));
+    quads_.resize(static_cast<std::size_t>(faces.size()));
     for (int f = 0; f < faces.size(); ++f) {
         if (faces.degree(f) != 4) continue;
         std::array<Eigen::Vector3d, 4> p;
         for (int i = 0; i < 4; ++i) p[i] = source_point(source, faces.first_corner(f) + i);
-        reflex_[f] = reflex_corners(p);
+        quads_[f] = {reflex_corners(p), split_quad(p)};
     }
 }
 
@@ -41,7 +44,18 @@ bool SphereFaces::upright(int face, const Positions& points) const {
     const auto at = [&](std::size_t i) { return Eigen::Vector3d(points.row(v[i % v.size()])); };
     if (v.size() == 3) return oriented_volume(at(0), at(1), at(2)) > 0;
     for (std::size_t i = 0; i < 4; ++i)
-        if (!reflex_[face][i] && !(oriented_volume(at(i), at(i + 1), at(i + 3)) > 0)) return false;
+        if (!quads_[face].reflex[i] && !(oriented_volume(at(i), at(i + 1), at(i + 3)) > 0)) return false;
+    return true;
+}
+
+bool SphereFaces::upright_as_triangles(const Positions& points) const {
+    for (int f = 0; f < source_.mesh.face_count(); ++f) {
+        const auto v = source_.mesh.faces[f];
+        const auto is_up = [&](const std::array<int, 3>& c) {
+            return oriented_volume(points.row(v[c[0]]), points.row(v[c[1]]), points.row(v[c[2]])) > 0;
+        };
+        if (v.size() == 3 ? !is_up({0, 1, 2}) : !std::ranges::all_of(quads_[f].triangles, is_up)) return false;
+    }
     return true;
 }
 

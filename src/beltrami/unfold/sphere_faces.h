@@ -8,7 +8,8 @@
 namespace beltrami {
 
 /// What a map of a closed surface to the sphere must not turn over: every triangle, and every quad at each corner that
-/// is not reflex in the source. Triangles of the image are geodesic.
+/// is not reflex in the source; or, less strictly, the two triangles that stand for a quad (split_quad). Triangles of
+/// the image are geodesic.
 class SphereFaces {
   public:
     /// @param source kept by reference
@@ -18,10 +19,17 @@ class SphereFaces {
     bool upright(int face, const Positions& points) const;
     /// Faces that do not, ascending.
     std::vector<int> flipped(const Positions& points) const;
+    /// Whether every face does as triangles: quads may turn in.
+    bool upright_as_triangles(const Positions& points) const;
 
   private:
+    /// Of a quad.
+    struct Quad {
+        std::array<char, 4> reflex;
+        std::array<std::array<int, 3>, 2> triangles;
+    };
     const Surface& source_;
-    std::vector<std::array<char, 4>> reflex_;  // #F, of quads; empty if there are none
+    std::vector<Quad> quads_;  // #F; empty if there are none
 };
 
 }  // namespace beltrami

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -106,14 +107,14 @@ class Mapping {
         }
         if (!found && options_.fall_back && options_.method != SphereMethod::least_distortion) {
             const std::string reason = failure_;
+            result_.log_scale.resize(0);
             found = least_distortion();
             result_.method = SphereMethod::least_distortion;
             result_.route = SphereRoute::fallback;
-            result_.log_scale.resize(0);
             if (found)
                 result_.warnings.push_back("the map of least distortion on this mesh was taken instead: " + reason);
         }
-        if (!found) refuse();
+        if (!found && !accept_turned_in()) refuse();
         finish();
         return std::move(result_);
     }
@@ -191,7 +192,21 @@ class Mapping {
         if (repair.flipped.empty()) return true;
         failure_ = std::to_string(repair.flipped.size()) + " faces stay flipped between the conformal images";
         keep_best(repair.flipped);
+        if (!turned_in_ && faces_.upright_as_triangles(result_.positions) &&
+            distortion(source_.operators, result_.positions, result_.positions).flipped.empty())
+            turned_in_ = result_;
         return false;
+    }
+
+    /// The first map found whose quads turn in at corners but do not fold where they are measured.
+    bool accept_turned_in() {
+        if (!turned_in_) return false;
+        std::vector<std::string> warnings = std::move(result_.warnings);
+        result_ = std::move(*turned_in_);
+        result_.warnings = std::move(warnings);
+        result_.warnings.push_back(std::to_string(faces_.flipped(result_.positions).size()) +
+                                   " quads turn in at a corner on the sphere; as triangles none is flipped");
+        return true;
     }
 
     /// Remembers the map with the fewest flipped faces for what is said of a failure.
@@ -317,6 +332,7 @@ class Mapping {
     std::string failure_;
     std::vector<int> best_flipped_;
     Positions best_;
+    std::optional<SphereMap> turned_in_;
 };
 
 }  // namespace

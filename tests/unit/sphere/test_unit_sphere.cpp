@@ -7,6 +7,7 @@
 
 #include <beltrami/base/random.h>
 #include <beltrami/sphere/centring.h>
+#include <beltrami/sphere/stereographic_charts.h>
 #include <beltrami/sphere/unit_sphere.h>
 
 namespace beltrami {
@@ -72,6 +73,34 @@ TEST(UnitSphere, GnomonicChartsKeepOrientationOfTinyTriangles) {
             EXPECT_LT(std::abs(chart(chart.point(z[2])) - z[2]), 1e-15 + 1e-3 * size);
         }
     }
+}
+
+TEST(StereographicCharts, KeepOrientationSideBySide) {
+    const FaceList faces = octahedron_faces();
+    Positions points = octahedron();
+    points = points * Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 0).normalized()).toRotationMatrix();
+    const TextureCoordinates charts = stereographic_charts(faces, points);
+    ASSERT_EQ(charts.corners.size(), 24U);
+    EXPECT_GT(charts.points.rows(), 6);  // seams: a vertex of both charts has two points
+    double north = -1e9, south = 1e9;
+    for (int f = 0; f < 8; ++f) {
+        Complex z[3];
+        double height = 0;
+        for (int i = 0; i < 3; ++i) {
+            const int c = charts.corners[3 * f + i];
+            z[i] = {charts.points(c, 0), charts.points(c, 1)};
+            height += points(faces[f][i], 2);
+        }
+        EXPECT_GT(std::imag(std::conj(z[1] - z[0]) * (z[2] - z[0])), 0) << f;
+        for (const Complex& corner : z)
+            if (height >= 0)
+                north = std::max(north, corner.real());
+            else
+                south = std::min(south, corner.real());
+        // In the first chart points are those of the projection.
+        if (height >= 0) EXPECT_LT(std::abs(z[0] - stereographic(points.row(faces[f][0]))), 1e-15);
+    }
+    EXPECT_LT(north, south);
 }
 
 TEST(Centring, UndoesAMoebiusMapUpToRotation) {

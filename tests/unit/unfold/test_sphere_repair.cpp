@@ -55,6 +55,9 @@ TEST(SphereFaces, QuadsAreLookedAtInEveryCornerThatIsNotReflex) {
     // Past the diagonal the quads at a corner turn in there, while triangles of one split stay upright.
     points.row(7) = Eigen::RowVector3d(-0.2, 0.1, 1).normalized();
     EXPECT_FALSE(faces.flipped(points).empty());
+    EXPECT_TRUE(faces.upright_as_triangles(cube.positions.rowwise().normalized()));
+    points.row(7) = Eigen::RowVector3d(-1, -1, -2).normalized();
+    EXPECT_FALSE(faces.upright_as_triangles(points));
 }
 
 TEST(SphereTutte, HasNoFoldsFromAnyOfItsRoots) {
