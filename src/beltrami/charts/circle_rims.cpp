@@ -17,6 +17,7 @@ constexpr double kLeastRate = 1e-4;        // of angle per length, and of length
 constexpr double kLeastIncrement = 0.1;    // of the old increment
 constexpr double kAtLeast = 1.01;          // of the least increment: as good as it
 constexpr double kLargestIncrement = 2.0;  // radians
+constexpr double kShortIncrement = 0.02;   // of the mean one: vertices beside such are not held
 
 /// Increments become at least @p least and at most kLargestIncrement with the same sum: what that adds is taken from
 /// the others in proportion to what they can give.
@@ -56,6 +57,21 @@ std::vector<double> least_increments(const std::vector<double>& lengths, const s
         least[i] = kLeastShare * rate * std::max(lengths[i], kLeastRate * length);
     }
     return least;
+}
+
+/// The vertex @p first, or where edges are very short there, as meshes graded to a boundary point have them, the one of
+/// the next few between the longest edges. The polygon has less area than the circle, by the cubes of its edges, so the
+/// energy pulls on the vertices that are held: neighbours much nearer than the pull is strong would be crushed.
+/// @param until angle, last index before which that is
+int sturdy(const CircleRim& rim, int first, double until, int last) {
+    const auto shorter = [&](int i) {
+        return std::min(rim.increment(i), rim.increment(i > 0 ? i - 1 : rim.size() - 1));
+    };
+    if (shorter(first) >= kShortIncrement * 2 * kPi / rim.size()) return first;
+    int best = first;
+    for (int i = first; i < last && rim.angles[i] < until; ++i)
+        if (shorter(i) > shorter(best)) best = i;
+    return best;
 }
 
 }  // namespace
@@ -140,12 +156,14 @@ std::vector<RoundHole> holes_of(const std::vector<CircleRim>& rims, int outer_lo
 }
 
 void hold_three(CircleRim& outer) {
+    const double third = 2 * kPi / 3;
     int held = 0;
-    for (int i = 0; i < outer.size() && held < 3; ++i)
-        if (outer.angles[i] - outer.angles[0] >= held * 2 * kPi / 3 - 1e-12 || outer.size() - i == 3 - held) {
-            outer.held[i] = 1;
-            ++held;
-        }
+    for (int i = 0; i < outer.size() && held < 3; ++i) {
+        if (outer.angles[i] - outer.angles[0] < held * third - 1e-12 && outer.size() - i > 3 - held) continue;
+        ++held;
+        i = sturdy(outer, i, outer.angles[0] + held * third, outer.size() - (3 - held));
+        outer.held[i] = 1;
+    }
 }
 
 void project(const std::vector<CircleRim>& rims, Eigen::VectorXd& unknowns) {

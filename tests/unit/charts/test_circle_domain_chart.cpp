@@ -407,5 +407,23 @@ TEST(LargeCircleDomainChart, OfScans) {
     }
 }
 
+/// The polygon of a loop's chart has less area than the circle, which pulls on the three vertices that are held: none
+/// of them may stand between edges far shorter than the others.
+TEST(CircleDomainChart, IsConformalWhereTheMeshIsGradedToItsFirstBoundaryVertex) {
+    Polygon ellipse;
+    for (int i = 0; i < 60; ++i) {
+        const double t = 2 * std::numbers::pi * i / 60;
+        ellipse.emplace_back(std::cos(t), 0.5 * std::sin(t));
+    }
+    DomainOptions options;
+    options.edge_length = 0.08;
+    options.sources = {{ellipse[0], 2e-4}};
+    const Surface source(polygon_domain(ellipse, {}, options));
+    ASSERT_EQ(source.topology.boundary_loops[0][0], 0);
+    const CircleDomainChart chart = circle_domain_chart(source);
+    EXPECT_LT(chart.mean_mu, 0.05);
+    EXPECT_LT(chart.max_mu, 0.35);
+}
+
 }  // namespace
 }  // namespace beltrami
