@@ -20,7 +20,7 @@ namespace beltrami {
 /// φ ↦ Im φ τ² along what slides is a real linear map whose singular values are sines of angles between functions and
 /// wanted ones. Where every loop has one condition their number is known: with F powers and polynomials for what is
 /// prescribed, n holes that slide and q pins it is 2F + 3n + 2q, and 3 less where the outer loop slides. Otherwise they
-/// are the values below a cut, in a gap.
+/// are the values below a cut, in a gap. (slit_space.h has them exactly where only the outer circle slides.)
 ///
 /// refined() raises the degree of what is prescribed; what slides has powers enough throughout.
 class MixedSpace final : public DifferentialSpace {

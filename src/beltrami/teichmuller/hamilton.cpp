@@ -18,9 +18,8 @@ constexpr double kLargeChange = 0.1;
 /// Changes of φ below this that do not become smaller for some iterations, while k stays, come from zeros of φ.
 constexpr double kStalledBelow = 3e-4, kStalledChangeOfK = 1e-5;
 constexpr int kStalledFor = 4;
-/// φ changes by more than this while k changes by less than that, for so many steps, within so narrow a bracket of K.
+/// φ changes by more than this while k changes by less than that, within so narrow a bracket of K.
 constexpr double kQuietAbove = 1e-3, kQuietChangeOfK = 2e-4, kQuietGap = 0.02;
-constexpr int kQuietFor = 6;
 /// Steps taken in a preliminary space.
 constexpr int kPreliminaryIterations = 2;
 /// Newton step, as part of the whole, to which the first c-step with poles at corners is solved.
@@ -153,7 +152,7 @@ void HamiltonIteration::run(HamiltonState& state, std::unique_ptr<DifferentialSp
         // Where the data hardly tell two φ apart, φ wanders while k stays and the bound is as near as it will come.
         const double gap = bracket(step_);
         quiet = change > kQuietAbove && k_change < kQuietChangeOfK ? quiet + 1 : 0;
-        const bool undecided = quiet >= kQuietFor && gap < kQuietGap && !state.space->preliminary();
+        const bool undecided = quiet >= options_.quiet_steps && gap < kQuietGap && !state.space->preliminary();
         const bool within = gap > options_.tight && !state.space->preliminary() && change < kLargeChange &&
                             std::max(change * change, k_change / step_.k) < options_.within_bracket * gap;
         const bool settled = undecided || within ||

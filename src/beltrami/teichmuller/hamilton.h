@@ -32,6 +32,8 @@ class HamiltonIteration {
         /// data, for which k is wanted to all digits. 0: never.
         double within_bracket = 0, tight = 0;
         double growth = 1e-5;
+        /// All has settled too once k stays and the bracket is narrow for so many steps, though φ still moves.
+        int quiet_steps = 6;
         int anderson_window = 5;
         /// When a larger space is tried, besides at a start from nothing: with the first map that comes from another
         /// problem's state, and once all has settled.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <string>
@@ -13,6 +14,7 @@
 #include <beltrami/differentials/laurent_space.h>
 #include <beltrami/differentials/mixed_space.h>
 #include <beltrami/differentials/polynomial_space.h>
+#include <beltrami/differentials/slit_space.h>
 #include <beltrami/teichmuller/problem.h>
 #include <beltrami/teichmuller/sliding_feasibility.h>
 
@@ -23,6 +25,10 @@ namespace {
 /// Degree of the first space. Where the condition changes along a loop about half of all functions of a degree are
 /// admissible: twice as many are resolved, and fewer than so many describe nothing.
 constexpr int kFirstDegree = 8, kFirstMixedDegree = 12, kLargestMixedDegree = 24;
+/// Powers of J of all slits together, and of one to begin with. Along an edge of length e at the end of a slit of
+/// length L J^-n turns by 2n √(e/L): by no more than so many radians, where the mesh is to resolve it.
+constexpr int kMostSlitPowers = 60, kFirstSlitPowers = 12;
+constexpr double kTurnAtEnd = 2;
 /// Around a hole with prescribed values, edges for each power of r/(z − c).
 constexpr int kEdgesPerPower = 6;
 constexpr int kLeastPower = 3, kMostPower = 16;
@@ -89,6 +95,24 @@ PreparedProblem prepare_mixed(const Surface& source, const MixedConditions& cond
     return prepared(split_prescribed(source, all));
 }
 
+/// Powers of J that the edges at the ends of prescribed arcs of the outer circle resolve.
+int resolved_powers(const Surface& source, const Chart& chart, const MixedDomain& domain) {
+    const auto& loop = source.topology.boundary_loops[chart.outer_loop];
+    const auto at = [&](std::size_t i) { return chart.vertices[loop[i % loop.size()]]; };
+    double result = std::numeric_limits<double>::infinity();
+    for (const MixedDomain::Part& part : domain.loops[0].parts)
+        for (const double end : {part.from, part.to}) {
+            if (part.slides) continue;
+            std::size_t nearest = 0;
+            for (std::size_t i = 0; i < loop.size(); ++i)
+                if (std::abs(at(i) - std::polar(1.0, end)) < std::abs(at(nearest) - std::polar(1.0, end))) nearest = i;
+            const double edge = std::max(std::abs(at(nearest + 1) - at(nearest)),
+                                         std::abs(at(nearest + loop.size() - 1) - at(nearest)));
+            result = std::min(result, 0.5 * kTurnAtEnd * std::sqrt((part.to - part.from) / edge));
+        }
+    return static_cast<int>(std::min(result, 1e6));
+}
+
 }  // namespace
 
 AdmissibleDifferentials mixed_differentials(const Surface& source, const CircleDomainChart& domain,
@@ -134,6 +158,16 @@ AdmissibleDifferentials mixed_differentials(const Surface& source, const CircleD
         powers.push_back(std::clamp(static_cast<int>(source.topology.boundary_loops[hole.loop].size()) / kEdgesPerPower,
                                     kLeastPower, kMostPower));
     int largest = PolynomialSpace::largest_degree(source.operators.sample_count()), first = kFirstDegree;
+    if (SlitSpace::describes(mixed)) {
+        const auto slits = static_cast<int>(mixed.loops[0].transitions.size()) / 2;
+        const int powers_wanted =
+            std::max(kFirstSlitPowers, std::min(largest + 2 * largest / slits, kMostSlitPowers / slits));
+        // Powers of J vary fastest at the ends: on meshes that are not graded to these the others do better.
+        if (powers_wanted <= resolved_powers(source, result.chart, mixed)) {
+            result.space = std::make_unique<SlitSpace>(mixed, kFirstSlitPowers, powers_wanted, powers);
+            return result;
+        }
+    }
     if (!mixed.closed()) {
         first = kFirstMixedDegree;
         largest = std::clamp(2 * largest, first, kLargestMixedDegree);

@@ -11,6 +11,8 @@ namespace beltrami {
 
 namespace {
 
+/// Where spaces grow φ goes on settling while k stays: on fine meshes by half a step, and the map with it.
+constexpr int kQuietSteps = 20;
 /// How many solves the system is ordered for.
 constexpr int kExpectedFactorizations = 8;
 /// Newton steps of the boundary after the iteration, each solved to this part of the map, …
@@ -118,6 +120,7 @@ HamiltonIteration SlidingSolver::iterate(HamiltonIteration::Options how) {
 FoundMap SlidingSolver::settle(ExtremalMap& result) {
     HamiltonIteration::Options how = sliding_iteration_options(options_);
     how.grow_first = how.grow_last = phi_.grows;
+    if (phi_.grows) how.quiet_steps = kQuietSteps;
     const HamiltonIteration iteration = iterate(std::move(how));
     result.history = iteration.history();
     result.iterations = iteration.iterations();
