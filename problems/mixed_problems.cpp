@@ -4,11 +4,14 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
-#include <beltrami/meshing/delaunay.h>
+#include <beltrami/charts/circle_domain_chart.h>
+#include <beltrami/charts/boundary_values.h>
 
 #include "problems/construct.h"
 #include "problems/elliptic.h"
+#include "problems/graded_domain.h"
 
 namespace beltrami::bench {
 
@@ -16,63 +19,8 @@ namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
 constexpr Complex kI(0, 1);
-/// Edges at pins and where the condition changes, as part of the others; from this far they grow like the root of the
-/// distance: there maps are like |z|, which has the interpolation error h²/|z| on edges h.
-constexpr double kFinest = 0.03, kGradedFrom = 0.25, kGradedFromOnBoundary = 1;
-
-struct RoundHoleOf {
-    Complex centre;
-    double radius;
-};
-
-/// The disk less round holes, fine at given places: pins inside, the first vertices of the mesh, and places on the unit
-/// circle, which are vertices too.
-Mesh graded_disk(double h, const std::vector<Complex>& pins, std::vector<double> angles,
-                 const std::vector<RoundHoleOf>& holes = {}) {
-    std::sort(angles.begin(), angles.end());
-    const SizeField size = [&](const Eigen::Vector2d& p) {
-        double wanted = h;
-        const auto finer_at = [&](Complex z, double from) {
-            const double far = std::abs(Complex(p.x(), p.y()) - z);
-            wanted = std::min(wanted, kFinest * h + std::min(0.3 * far, h * std::sqrt(far / from)));
-        };
-        for (const Complex z : pins) finer_at(z, kGradedFrom);
-        for (const double t : angles) finer_at(std::polar(1.0, t), kGradedFromOnBoundary);
-        for (const auto& hole : holes)
-            wanted =
-                std::min(wanted, std::min(h, kTurn * hole.radius / 40) +
-                                     0.3 * std::max(0.0, std::abs(Complex(p.x(), p.y()) - hole.centre) - hole.radius));
-        return wanted;
-    };
-    PlanarDomain domain;
-    for (const Complex z : pins) domain.points.push_back(point(z));
-    const auto add_circle = [&](int curve, Complex centre, double radius, const std::vector<double>& ends) {
-        const int first = static_cast<int>(domain.points.size());
-        for (std::size_t a = 0; a < ends.size(); ++a) {
-            const double from = ends[a], to = a + 1 < ends.size() ? ends[a + 1] : ends[0] + kTurn;
-            const auto at = [&](double s) { return centre + std::polar(radius, from + s * (to - from)); };
-            const std::vector<double> t = spread(
-                radius * (to - from), [&](double s) { return size(point(at(s))); }, ends.size() > 1 ? 2 : 32);
-            for (std::size_t k = 0; k + 1 < t.size(); ++k) domain.points.push_back(point(at(t[k])));
-        }
-        const int n = static_cast<int>(domain.points.size()) - first;
-        for (int k = 0; k < n; ++k) {
-            domain.segments.push_back({first + k, first + (k + 1) % n});
-            domain.curves.push_back(curve);
-        }
-    };
-    add_circle(0, 0, 1, angles.empty() ? std::vector<double>{0} : angles);
-    for (std::size_t i = 0; i < holes.size(); ++i)
-        add_circle(static_cast<int>(i) + 1, holes[i].centre, holes[i].radius, {0});
-    domain.project = [&](int curve, const Eigen::Vector2d& p) {
-        const RoundHoleOf circle = curve == 0 ? RoundHoleOf{0, 1} : holes[curve - 1];
-        const Complex from = Complex(p.x(), p.y()) - circle.centre;
-        return point(circle.centre + circle.radius * from / std::abs(from));
-    };
-    TriangulateOptions options;
-    options.size = size;
-    return triangulate(domain, options);
-}
+/// Edges at the hole of a ring, as part of the others.
+constexpr double kHoleEdge = 0.4;
 
 /// The closed polygon through what is prescribed on a loop; sliding arcs are its straight sides between.
 TargetCurve polygon_through(const Mesh& mesh, const std::vector<int>& loop, const BoundaryCondition& prescribed) {
@@ -105,24 +53,64 @@ double hyperbolic(Complex a, Complex b) {
     return std::abs((a - b) / (1.0 - std::conj(a) * b));
 }
 
+/// The affine map of K = 2 that the exact maps are made of, and back.
+Complex stretched(Complex w) {
+    return {2 * w.real(), w.imag()};
+}
+Complex shrunk(Complex w) {
+    return {w.real() / 2, w.imag()};
+}
+
+/// A zero of a holomorphic function by Newton's method.
+Complex inverted(Complex start, const PlaneMap& function, const PlaneMap& derivative) {
+    Complex z = start;
+    for (int i = 0; i < 50; ++i) {
+        const Complex step = function(z) / derivative(z);
+        z -= step;
+        if (std::abs(step) < 1e-15) break;
+    }
+    return z;
+}
+
+std::vector<Complex> on_circle(const std::array<double, 4>& angles) {
+    std::vector<Complex> result;
+    for (const double t : angles) result.push_back(std::polar(1.0, t));
+    return result;
+}
+
 }  // namespace
 
-MixedProblemCase sliding_inner_circle(double h) {
+MixedProblemCase sliding_inner_circle(double h, bool back) {
     const double r = 0.5, alpha = 0.2;
-    DomainOptions options;
-    options.edge_length = h;
-    options.hole_edge_length = 0.4 * h;
-    MixedProblemCase result{
-        "ring, outer circle prescribed, inner one slides", circle_domain({}, {{{0, 0}, r}}, options), {}};
-    const auto f = [=](Complex z) {
-        const Complex w = std::log(z) + alpha * (z / r - r / z);
-        return std::exp(Complex(2 * w.real(), w.imag()));
+    const auto f = [=](Complex z) { return std::exp(stretched(std::log(z) + alpha * (z / r - r / z))); };
+    const auto inverse = [=](Complex p) {
+        // Of e^w, whose logarithm near 0 has no branch.
+        const Complex at = std::exp(shrunk(std::log(p)));
+        return inverted(
+            at, [=](Complex z) { return std::log(z * std::exp(alpha * (z / r - r / z)) / at); },
+            [=](Complex z) { return 1.0 / z + alpha * (1 / r + r / (z * z)); });
     };
-    result.exact = values(result.mesh, f);
+    MixedProblemCase result{"ring, outer circle prescribed, inner one slides", {}, {}};
     result.exact_k = 1.0 / 3;
-    const auto loops = topology(result.mesh).boundary_loops;
-    for (const int v : loops[0]) result.conditions.prescribed.pin(v, (*result.exact)[v]);
-    result.conditions.curves = {std::nullopt, TargetCurve::circle(0, r * r)};
+    const double hole = back ? r * r : r;
+    if (back) {
+        const OuterCurve outer{[=](double t) { return f(std::polar(1.0, kTurn * t)); }};
+        result.mesh = graded_mesh(h, outer, {{}, {}, {{0, hole}}, kHoleEdge});
+        result.exact = values(result.mesh, inverse);
+    } else {
+        DomainOptions options;
+        options.edge_length = h;
+        options.hole_edge_length = kHoleEdge * h;
+        result.mesh = circle_domain({}, {{{0, 0}, r}}, options);
+        result.exact = values(result.mesh, f);
+    }
+    for (const auto& loop : topology(result.mesh).boundary_loops) {
+        const bool slides = std::abs(place(result.mesh, loop[0])) < hole + 1e-9;
+        result.conditions.curves.emplace_back();
+        if (slides) result.conditions.curves.back() = TargetCurve::circle(0, back ? r : r * r);
+        if (!slides)
+            for (const int v : loop) result.conditions.prescribed.pin(v, (*result.exact)[v]);
+    }
     return result;
 }
 
@@ -131,8 +119,12 @@ MixedProblemCase two_sliding_holes(double h, bool back, bool pinned) {
     const auto &from = back ? two : one, &to = back ? one : two;
     const CircleMotion motion{0.4, 0.5};
     const std::array<Complex, 2> pin{Complex(-0.05, -0.55), Complex(0.1, -0.45)};
-    MixedProblemCase result{"two holes slide, outer circle prescribed", {}, {}};
-    result.mesh = graded_disk(h, pinned ? std::vector<Complex>{pin[back]} : std::vector<Complex>{}, {}, from);
+    MixedProblemCase result{
+        pinned ? "two holes slide, outer circle prescribed, a pin inside" : "two holes slide, outer circle prescribed",
+        {},
+        {}};
+    result.mesh =
+        graded_mesh(h, unit_circle(), {pinned ? std::vector<Complex>{pin[back]} : std::vector<Complex>{}, {}, from});
     if (pinned) result.conditions.prescribed.pin(0, pin[!back]);
     const auto loops = topology(result.mesh).boundary_loops;
     for (const auto& loop : loops) {
@@ -162,7 +154,8 @@ MixedProblemCase pins_in_sliding_disk(double h, int pins, bool back) {
         to = {{0.5, 0.2}, {0, 0.6}, {-0.5, 0.1}, {-0.3, -0.4}, {0.3, -0.4}};
     }
     if (back) std::swap(from, to);
-    MixedProblemCase result{std::to_string(from.size()) + " pins in a sliding disk", graded_disk(h, from, {}), {}};
+    MixedProblemCase result{
+        std::to_string(from.size()) + " pins in a sliding disk", graded_mesh(h, unit_circle(), {from, {}, {}}), {}};
     for (std::size_t i = 0; i < from.size(); ++i) result.conditions.prescribed.pin(static_cast<int>(i), to[i]);
     result.conditions.curves = {TargetCurve::circle(0, 1)};
     if (pins == 2) {
@@ -173,47 +166,89 @@ MixedProblemCase pins_in_sliding_disk(double h, int pins, bool back) {
     return result;
 }
 
-MixedProblemCase two_sliding_sides(double h) {
-    MixedProblemCase result{"square, two sides prescribed, two slide",
-                            polygon_domain({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {}, {.edge_length = h}),
-                            {}};
-    const auto f = [](Complex z) {
-        const Complex w = z + 0.04 / std::numbers::pi * std::sinh(std::numbers::pi * z);
-        return Complex(2 * w.real(), w.imag());
+MixedProblemCase two_sliding_sides(double h, bool back) {
+    const auto inner = [](Complex z) { return z + 0.04 / std::numbers::pi * std::sinh(std::numbers::pi * z); };
+    const auto f = [=](Complex z) { return stretched(inner(z)); };
+    const auto inverse = [=](Complex p) {
+        const Complex w = shrunk(p);
+        return inverted(
+            w, [=](Complex z) { return inner(z) - w; },
+            [](Complex z) { return 1.0 + 0.04 * std::cosh(std::numbers::pi * z); });
     };
-    result.exact = values(result.mesh, f);
+    MixedProblemCase result{"square, two sides prescribed, two slide", {}, {}};
     result.exact_k = 1.0 / 3;
+    const std::array<Complex, 4> corners{Complex(0, 0), Complex(1, 0), Complex(1, 1), Complex(0, 1)};
+    const auto around = [=](double t) {
+        const auto side = static_cast<std::size_t>(std::clamp(std::floor(4 * t), 0.0, 3.0));
+        return corners[side] + (4 * t - static_cast<double>(side)) * (corners[(side + 1) % 4] - corners[side]);
+    };
+    if (back) {
+        result.mesh = graded_mesh(h, {[=](double t) { return f(around(t)); }, {0, 0.25, 0.5, 0.75}}, {});
+        result.exact = values(result.mesh, inverse);
+    } else {
+        result.mesh = polygon_domain({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {}, {.edge_length = h});
+        result.exact = values(result.mesh, f);
+    }
     const auto loops = topology(result.mesh).boundary_loops;
     for (const int v : loops[0]) {
-        const double x = place(result.mesh, v).real();
-        if (x < 1e-12 || x > 1 - 1e-12) result.conditions.prescribed.pin(v, (*result.exact)[v]);
+        const double x = (back ? (*result.exact)[v] : place(result.mesh, v)).real();
+        if (x < 1e-9 || x > 1 - 1e-9) result.conditions.prescribed.pin(v, (*result.exact)[v]);
     }
     result.conditions.curves = {polygon_through(result.mesh, loops[0], result.conditions.prescribed)};
     return result;
 }
 
-MixedProblemCase sliding_half_circle(double h) {
-    MixedProblemCase result{
-        "upper half circle slides, lower prescribed", graded_disk(h, {}, {0, std::numbers::pi}), {}};
-    const auto f = [](Complex z) {
-        Complex t;
-        if (std::abs(z - 1.0) < 1e-12) {
-            t = 1;
-        } else {
-            Complex w = kI * (1.0 + z) / (1.0 - z);  // the upper half plane
-            if (std::abs(z) > 1 - 1e-12) w = Complex(w.real(), 0.0);
-            const Complex s = std::sqrt(w);
-            t = (s - kI) / (s + kI);
-        }
-        const Complex zeta = t + 0.2 * t * t, w = Complex(2 * zeta.real(), zeta.imag());
-        return std::sin(0.25 * kTurn * (w - 0.4) / 2.0);  // w runs from −1.6 to 2.4 on the diameter
+namespace {
+
+/// The upper half plane to the disk's, 0 to −1 and ∞ to 1; its square root takes the upper half of the circle to the
+/// diameter of the upper half disk.
+Complex opened_half_disk(Complex z) {
+    if (std::abs(z - 1.0) < 1e-14) return 1;
+    Complex w = kI * (1.0 + z) / (1.0 - z);
+    if (std::abs(z) > 1 - 1e-12) w = Complex(w.real(), 0.0);
+    const Complex s = std::sqrt(w);
+    return (s - kI) / (s + kI);
+}
+Complex closed_half_disk(Complex t) {
+    if (std::abs(t - 1.0) < 1e-14) return 1;
+    const Complex s = kI * (1.0 + t) / (1.0 - t), w = s * s;
+    return (w - kI) / (w + kI);
+}
+
+}  // namespace
+
+MixedProblemCase sliding_half_circle(double h, bool back) {
+    // Along the diameter 2 Re (t + .2 t²) runs from −1.6 to 2.4.
+    const double bend = 0.2, middle = 0.4, half = 2;
+    const auto f = [=](Complex z) {
+        const Complex t = opened_half_disk(z);
+        return std::sin(0.25 * kTurn * (stretched(t + bend * t * t) - middle) / half);
     };
-    result.exact = values(result.mesh, f);
+    const auto inverse = [=](Complex p) {
+        if (std::abs(p * p - 1.0) < 1e-14) return Complex(p.real(), 0.0);
+        const Complex zeta = shrunk(half * std::asin(p) / (0.25 * kTurn) + middle);
+        const Complex t = (std::sqrt(1.0 + 4 * bend * zeta) - 1.0) / (2 * bend);
+        return closed_half_disk(t);
+    };
+    MixedProblemCase result{"upper half circle slides, lower prescribed", {}, {}};
     result.exact_k = 1.0 / 3;
+    const OuterCurve circle = unit_circle({0, std::numbers::pi});
+    const GradedPlaces fine{{}, {1, -1}, {}};
+    if (back) {
+        result.mesh = graded_mesh(h, {[=](double t) { return f(circle.at(t)); }, circle.ends}, fine);
+        result.exact = values(result.mesh, inverse);
+    } else {
+        result.mesh = graded_mesh(h, circle, fine);
+        result.exact = values(result.mesh, f);
+    }
     const auto loops = topology(result.mesh).boundary_loops;
-    for (const int v : loops[0])
-        if (place(result.mesh, v).imag() < 1e-12) result.conditions.prescribed.pin(v, (*result.exact)[v]);
-    result.conditions.curves = {polygon_through(result.mesh, loops[0], result.conditions.prescribed)};
+    const Eigen::VectorXcd& image = *result.exact;
+    for (const int v : loops[0]) {
+        const Complex on_disk = back ? image[v] : place(result.mesh, v);
+        if (on_disk.imag() < 1e-12) result.conditions.prescribed.pin(v, image[v]);
+    }
+    result.conditions.curves = {back ? TargetCurve::circle(0, 1)
+                                     : polygon_through(result.mesh, loops[0], result.conditions.prescribed)};
     return result;
 }
 
@@ -223,9 +258,10 @@ MixedProblemCase two_prescribed_arcs(double h, bool back, bool pinned) {
     if (back)
         for (double& t : ends) t = motion.forward(t);
     const std::array<Complex, 2> pin{Complex(-0.2, 0.1), Complex(0.05, -0.1)};
-    MixedProblemCase result{"two arcs of the disk prescribed", {}, {}};
-    result.mesh =
-        graded_disk(h, pinned ? std::vector<Complex>{pin[back]} : std::vector<Complex>{}, {ends.begin(), ends.end()});
+    MixedProblemCase result{
+        pinned ? "two arcs of the disk prescribed, a pin inside" : "two arcs of the disk prescribed", {}, {}};
+    result.mesh = graded_mesh(h, unit_circle({ends.begin(), ends.end()}),
+                              {pinned ? std::vector<Complex>{pin[back]} : std::vector<Complex>{}, on_circle(ends), {}});
     if (pinned) result.conditions.prescribed.pin(0, pin[!back]);
     const auto loops = topology(result.mesh).boundary_loops;
     for (const int v : loops[0]) {
@@ -236,6 +272,81 @@ MixedProblemCase two_prescribed_arcs(double h, bool back, bool pinned) {
             result.conditions.prescribed.pin(v, std::polar(1.0, motion(t, back)));
     }
     result.conditions.curves = {TargetCurve::circle(0, 1)};
+    return result;
+}
+
+namespace {
+
+/// Angles along a circle that go to others, both ascending, once around: piecewise linear between.
+class CircleCorrespondence {
+  public:
+    CircleCorrespondence(std::vector<double> from, std::vector<double> to)
+        : from_(std::move(from)), to_(std::move(to)) {
+        for (std::vector<double>* angles : {&from_, &to_}) {
+            for (std::size_t i = 1; i < angles->size(); ++i)
+                (*angles)[i] = (*angles)[i - 1] + positive((*angles)[i] - (*angles)[i - 1]);
+            angles->push_back((*angles)[0] + kTurn);
+        }
+    }
+    double operator()(double t) const {
+        t = from_[0] + positive(t - from_[0]);
+        const auto next = std::upper_bound(from_.begin(), from_.end() - 1, t);
+        const auto i = static_cast<std::size_t>(next - from_.begin());
+        return to_[i - 1] + (t - from_[i - 1]) / (from_[i] - from_[i - 1]) * (to_[i] - to_[i - 1]);
+    }
+
+  private:
+    static double positive(double t) { return t - kTurn * std::floor(t / kTurn); }
+    std::vector<double> from_, to_;
+};
+
+}  // namespace
+
+MixedProblemCase sliding_holes_of_face(const Mesh& face, double h, bool back) {
+    const Surface source(face);
+    const BoundaryCondition outline = boundary_to_disk(source, 0.5);
+    const CircleDomainChart domain = circle_domain_chart(source);
+    Complex turn = 0;
+    std::vector<double> on_chart, on_image;
+    for (std::size_t i = 0; i < outline.vertices.size(); ++i) {
+        const Complex z = domain.chart.vertices[outline.vertices[i]];
+        turn += outline.images[i] * std::conj(z);
+        on_chart.push_back(std::arg(z));
+        on_image.push_back(std::arg(outline.images[i]));
+    }
+    turn /= std::abs(turn);
+    MixedProblemCase result{"face, outline prescribed (disk:0.5), holes slide", face, {}};
+    const auto curves_of = [&](Complex by, const Surface& from, auto hole_of) {
+        for (const auto& loop : from.topology.boundary_loops) {
+            const std::optional<RoundHole> hole = hole_of(loop);
+            result.conditions.curves.emplace_back();
+            if (hole) result.conditions.curves.back() = TargetCurve::circle(by * hole->centre, hole->radius);
+        }
+    };
+    if (!back) {
+        result.conditions.prescribed = outline;
+        curves_of(turn, source, [&](const std::vector<int>& loop) -> std::optional<RoundHole> {
+            for (const RoundHole& hole : domain.holes)
+                if (source.topology.boundary_loops[hole.loop] == loop) return hole;
+            return {};
+        });
+        return result;
+    }
+    GradedPlaces fine;
+    for (const RoundHole& hole : domain.holes) fine.holes.push_back({turn * hole.centre, hole.radius});
+    result.mesh = graded_mesh(h, unit_circle(), fine);
+    const CircleCorrespondence angle(on_image, on_chart);
+    const Surface image(result.mesh);
+    for (const auto& loop : image.topology.boundary_loops)
+        for (const int v : loop)
+            if (const Complex z = place(result.mesh, v); std::abs(z) > 1 - 1e-9)
+                result.conditions.prescribed.pin(v, std::polar(1.0, angle(std::arg(z))));
+    curves_of(1, image, [&](const std::vector<int>& loop) -> std::optional<RoundHole> {
+        const Complex z = place(result.mesh, loop[0]);
+        for (const RoundHole& hole : domain.holes)
+            if (std::abs(std::abs(z - turn * hole.centre) - hole.radius) < 1e-9) return hole;
+        return {};
+    });
     return result;
 }
 
