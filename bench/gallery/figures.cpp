@@ -76,6 +76,7 @@ const Page& sliding() {
             {"sliding_13", sliding_13},
             {"sliding_classes", sliding_classes},
             {"sliding_distance", sliding_distance},
+            {"sliding_mixed", sliding_mixed},
         }};
     return page;
 }

@@ -196,6 +196,7 @@ Figure sliding_08(Output& output);        ///< arbitrary shapes and sizes (Examp
 Figure sliding_09(Output& output);        ///< seconds (Example 9)
 Figure sliding_12(Output& output);        ///< scans (Example 12), if the folder BELTRAMI_MESHES has them
 Figure sliding_13(Output& output);        ///< grids (Example 13), likewise
+Figure sliding_mixed(Output& output);     ///< conditions that mix
 Figure sliding_classes(Output& output);   ///< holes that change places; rotated starts; symmetric domains
 Figure sliding_distance(Output& output);  ///< distances of shapes and their clusters
 
