@@ -81,10 +81,19 @@ const Page& sliding() {
     return page;
 }
 
+const Page& sphere() {
+    static const Page page{"gallery-sphere.md",
+                           "# Gallery: the sphere\n\n"
+                           "Conformal maps of closed surfaces of genus 0, made by `./run gallery`. Seconds on a busy "
+                           "machine.\n\n",
+                           {{"spheres", spheres}}};
+    return page;
+}
+
 }  // namespace
 
 const std::vector<Page>& pages() {
-    static const std::vector<Page> list{prescribed(), sliding()};
+    static const std::vector<Page> list{prescribed(), sliding(), sphere()};
     return list;
 }
 

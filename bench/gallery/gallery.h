@@ -200,4 +200,6 @@ Figure sliding_mixed(Output& output);     ///< conditions that mix
 Figure sliding_classes(Output& output);   ///< holes that change places; rotated starts; symmetric domains
 Figure sliding_distance(Output& output);  ///< distances of shapes and their clusters
 
+Figure spheres(Output& output);  ///< closed surfaces, scans if the folder BELTRAMI_MESHES has them
+
 }  // namespace beltrami::gallery
