@@ -29,7 +29,7 @@ struct Case {
     BoundaryCondition boundary;
 };
 
-double largest(const std::vector<Bound>& bounds, const char* kind) {
+double largest(const std::vector<Bound>& bounds, Bound::Kind kind) {
     double K = 1;
     for (const Bound& bound : bounds)
         if (bound.kind == kind) K = std::max(K, bound.K);
@@ -58,8 +58,8 @@ void pair_rows(Case c, int refinements) {
         const int steps = image ? pair_bound(c.surface, *image).steps : 0;
         const double seconds = now() - start;
         fmt::print("| {} | {} | {:.5f} | {:.5f} | {:.5f} | {} | {:.1f} |\n", c.name, c.surface.mesh.face_count(),
-                   largest(result.bounds, "reich_strebel"), largest(result.bounds, "pair"),
-                   largest(result.bounds, "edge_corner"), steps, seconds / harmonic_seconds(c));
+                   largest(result.bounds, Bound::Kind::reich_strebel), largest(result.bounds, Bound::Kind::pair),
+                   largest(result.bounds, Bound::Kind::edge_corner), steps, seconds / harmonic_seconds(c));
         std::fflush(stdout);
     }
 }

@@ -67,7 +67,7 @@ void print(const std::string& name, const std::string& h, const Run& run, const 
         found.distortion.max, found.iterations, found.distortion.flipped.size(), found.dimension);
     const std::string order = last_error > 0 ? fmt::format("{:.2f}", std::log2(last_error / run.error)) : "";
     fmt::print("| {} | {} | {:.2f} |\n", run.error > 0 ? fmt::format("{:.1e}", run.error) : "", order, run.seconds);
-    for (const std::string& warning : found.warnings) fmt::print(stderr, "{}, {}: {}\n", name, h, warning);
+    for (const Warning& warning : found.warnings) fmt::print(stderr, "{}, {}: {}\n", name, h, warning.sentence);
     std::fflush(stdout);
 }
 

@@ -72,7 +72,7 @@ class PointFile {
     [[noreturn]] void fail(const NumberRow& row, const std::string& what, Cause cause = Cause::unreadable,
                            const std::string& next_step = "repair the line") const {
         throw Error(cause, fmt::format("{}:{}: {}", path_, row.line, what), next_step,
-                    {static_cast<int>(row.line) - 1});
+                    {Things::lines, {static_cast<int>(row.line) - 1}});
     }
 
   private:
@@ -112,14 +112,15 @@ class Apply final : public Command {
         if (positions_ && !inverse_)
             throw Error(Cause::bad_option, "--positions belongs to --inverse", "leave it out, or give --inverse");
         check_files({{"MAP", map_}, {"POINTS", points_}}, {{"-o", output_}});
-        std::vector<std::string> warnings;
+        Warnings warnings;
         const Mesh mesh = load(map_, warnings);
         const Surface source(mesh);
         add_findings(source.findings, warnings);
         const Positions corners = texture_corners(mesh);
         if (const std::size_t folded = distortion_to_corners(mesh, corners).flipped.size(); folded && inverse_)
-            warnings.push_back(counted(folded, "face is flipped", "faces are flipped") +
-                               ": where the image overlaps itself, the place on the first face is taken");
+            warnings.push_back({WarningKind::flipped_faces,
+                                counted(folded, "face is flipped", "faces are flipped") +
+                                    ": where the image overlaps itself, the place on the first face is taken"});
         const MapEvaluation map = MapEvaluation::of_corners(mesh, corners);
         const PointFile points(points_, mesh, inverse_);
         write_atomically(output_, inverse_ ? places(map, mesh, points) : images(map, points));
@@ -127,7 +128,7 @@ class Apply final : public Command {
             fmt::print("{}", counted(points.rows().size(), "point", "points"));
             if (farthest_ > 0) fmt::print(", the farthest {:.3g} away from the surface", farthest_);
             fmt::print("\nwrote {}\n", output_);
-            for (const std::string& warning : warnings) complain("warning: " + warning);
+            for (const Warning& warning : warnings) complain("warning: " + warning.sentence);
         }
         return 0;
     }

@@ -119,7 +119,7 @@ void BoundaryOptions::read_pins(const MeshInput& source) {
         if (std::isnan(x) && std::isnan(y))
             throw Error(Cause::bad_boundary,
                         pin_file_ + ": both coordinates of vertex " + std::to_string(vertex) + " are free",
-                        "leave its line out", {vertex});
+                        "leave its line out", {Things::vertices, {vertex}});
         if (std::isnan(x)) {
             pins_.pin_to_line(vertex, Complex(0, y), 1.0);
         } else if (std::isnan(y)) {
@@ -142,9 +142,10 @@ void BoundaryOptions::load(const MeshInput& source) {
     if (!pin_file_.empty()) read_pins(source);
 }
 
-BoundaryCondition BoundaryOptions::outer_values(const Surface& source) const {
+BoundaryCondition BoundaryOptions::outer_values(const Shape& shape) const {
+    const Surface& source = shape.surface();
     const BoundaryPlacement placement{
-        start_, speed_ == "conformal" ? BoundarySpeed::conformal : BoundarySpeed::arclength, outer_};
+        start_, speed_ == "conformal" ? BoundarySpeed::conformal : BoundarySpeed::arclength, outer_, &shape};
     switch (target_) {
         case Target::none:
             return {};
@@ -178,12 +179,13 @@ std::optional<TargetCurve> BoundaryOptions::curve(int loop) const {
     return {};
 }
 
-BoundaryCondition BoundaryOptions::values(const Surface& source) const {
+BoundaryCondition BoundaryOptions::values(const Shape& shape) const {
+    const Surface& source = shape.surface();
     const int loops = static_cast<int>(source.topology.boundary_loops.size());
     if (outer_ > 0 && outer_ >= loops)
         throw Error(Cause::bad_option, "--outer " + std::to_string(outer_) + ": there is no such boundary loop",
                     "`beltrami info` prints the loops' numbers");
-    BoundaryCondition boundary = outer_values(source);
+    BoundaryCondition boundary = outer_values(shape);
     const auto add = [&](const BoundaryCondition& more) {
         for (std::size_t i = 0; i < more.vertices.size(); ++i) boundary.pin(more.vertices[i], more.images[i]);
     };

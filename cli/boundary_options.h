@@ -5,6 +5,7 @@
 #include <optional>
 
 #include <beltrami/charts/boundary_values.h>
+#include <beltrami/charts/shape.h>
 #include <beltrami/plane/target_curve.h>
 
 #include "files.h"
@@ -22,7 +23,9 @@ class BoundaryOptions {
     /// unreadable, bad_boundary
     void load(const MeshInput& source);
     /// What is prescribed. @pre load() @throw Error bad_option, bad_boundary
-    BoundaryCondition values(const Surface& source) const;
+    BoundaryCondition values(const Surface& source) const { return values(Shape(source)); }
+    /// The same with a chart of the shape for the conformal speed.
+    BoundaryCondition values(const Shape& shape) const;
     /// The curve along which the values of a loop lie; nothing where none is given by --boundary or --hole.
     std::optional<TargetCurve> curve(int loop) const;
     /// The loop whose image encloses the others.
@@ -48,7 +51,7 @@ class BoundaryOptions {
     void read_pins(const MeshInput& source);
     /// Of polygon:FILE.
     std::string polygon_file() const;
-    BoundaryCondition outer_values(const Surface& source) const;
+    BoundaryCondition outer_values(const Shape& shape) const;
 
     std::string spec_, speed_ = "arclength", pin_file_;
     std::vector<std::string> hole_specs_;

@@ -45,8 +45,7 @@ int exit_code(Cause cause) {
 
 void CommonOptions::add_to(CLI::App& app, bool has_map) {
     app.add_option("--json", json, "write the record as JSON to FILE, or to standard output with -")->type_name("FILE");
-    if (has_map)
-        app.add_option("--report", report, "write a self-contained HTML page to FILE")->type_name("FILE.html");
+    if (has_map) app.add_option("--report", report, "write a self-contained HTML page to FILE")->type_name("FILE.html");
     app.add_flag("--quiet", quiet, "print nothing but errors");
     app.add_option_function<int>(
            "--threads", [](int count) { set_thread_count(count); }, "use N threads; the result does not depend on it")
@@ -60,15 +59,17 @@ void CommonOptions::check_files(const std::vector<NamedFile>& inputs, std::vecto
     cli::check_files(inputs, outputs);
 }
 
-Mesh load(const std::string& path, std::vector<std::string>& warnings) {
+Mesh load(const std::string& path, Warnings& warnings) {
     LoadedMesh loaded = read_mesh(path);
-    warnings.insert(warnings.end(), loaded.warnings.begin(), loaded.warnings.end());
+    append(warnings, loaded.warnings);
     return std::move(loaded.mesh);
 }
 
-void add_findings(const std::vector<Finding>& findings, std::vector<std::string>& warnings) {
+void add_findings(const std::vector<Finding>& findings, Warnings& warnings) {
     for (const Finding& finding : findings)
-        warnings.push_back(finding.next_step.empty() ? finding.sentence : finding.sentence + ": " + finding.next_step);
+        warnings.push_back({WarningKind::mesh,
+                            finding.next_step.empty() ? finding.sentence : finding.sentence + ": " + finding.next_step,
+                            finding.where()});
 }
 
 void finish(const Record& record, const CommonOptions& common, const std::string& method,
@@ -89,8 +90,10 @@ void finish(const Record& record, const CommonOptions& common, const std::string
         for (const std::string& file : files)
             if (!file.empty() && file != "-") fmt::print("wrote {}\n", file);
     }
-    if (!common.quiet)
-        for (const std::string& warning : record.warnings) complain("warning: " + warning);
+    if (!common.quiet) {
+        for (const Warning& warning : record.warnings) complain("warning: " + warning.sentence);
+        for (const std::string& hint : hints(record)) complain("hint: " + hint);
+    }
     if (std::fflush(stdout) != 0) throw Error(Cause::unwritable, "standard output could not be written");
 }
 

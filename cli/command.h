@@ -8,6 +8,7 @@
 #include <beltrami/report/record.h>
 
 #include "files.h"
+#include "hints.h"
 
 namespace beltrami::cli {
 
@@ -32,9 +33,9 @@ class Command {
     virtual ~Command() = default;
     virtual int run() = 0;
     /// What has been found before run() ended or gave up, to be printed beside an error too.
-    std::vector<std::string> warnings() const { return common_.quiet ? std::vector<std::string>() : record_.warnings; }
-    /// Options that may help a mesh that cannot be mapped; empty if none would.
-    virtual std::string hint() const { return {}; }
+    Warnings warnings() const { return common_.quiet ? Warnings() : record_.warnings; }
+    /// Options that may help after an error; empty if none would.
+    virtual std::string hint(const Error& error) const { return cli::hint(error); }
 
   protected:
     CommonOptions common_;
@@ -56,10 +57,10 @@ int exit_code(Cause cause);
 extern const char* const kExitCodes;
 
 /// Reads a mesh; the reader's warnings are added to @p warnings.
-Mesh load(const std::string& path, std::vector<std::string>& warnings);
+Mesh load(const std::string& path, Warnings& warnings);
 
 /// Adds the diagnosis' warnings.
-void add_findings(const std::vector<Finding>& findings, std::vector<std::string>& warnings);
+void add_findings(const std::vector<Finding>& findings, Warnings& warnings);
 
 /// Writes the record where the options want it; prints the table, what its bounds say, the warnings and the names of
 /// the files otherwise.

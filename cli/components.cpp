@@ -100,11 +100,17 @@ MethodResult map_components(const Surface& source,
         } catch (const Error& error) {
             throw Error(error.cause(),
                         fmt::format("component {}, whose first face is {}: {}", c, components[c][0], error.what()), {},
-                        {components[c][0]});
+                        {Things::faces, {components[c][0]}});
         }
         assembly.add(part, result, own.split);
-        for (const std::string& warning : own.warnings)
-            record.warnings.push_back(fmt::format("component {}: {}", c, warning));
+        std::vector<int> whole_faces = part.faces;
+        if (result.split) {
+            whole_faces.clear();
+            for (const int parent : result.face_parents) whole_faces.push_back(part.faces[parent]);
+        }
+        for (const Warning& warning : own.warnings)
+            record.warnings.push_back({warning.kind, fmt::format("component {}: {}", c, warning.sentence),
+                                       in_whole(warning.where, part.vertices, whole_faces)});
         record.components.push_back({components[c][0], static_cast<int>(components[c].size()), *own.map, *own.solve});
         record.solve->iterations += own.solve->iterations;
         record.solve->factorizations += own.solve->factorizations;

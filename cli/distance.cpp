@@ -49,11 +49,11 @@ class DistanceCommand final : public Command {
             try {
                 surfaces.emplace_back(std::move(input.mesh));
             } catch (const Error& error) {
-                throw Error(error.cause(), mesh + ": " + error.what(), {}, error.indices());
+                throw Error(error.cause(), mesh + ": " + error.what(), {}, error.where());
             }
-            std::vector<std::string> findings;
+            Warnings findings;
             add_findings(surfaces.back().findings, findings);
-            for (const std::string& finding : findings) record.warnings.push_back(mesh + ": " + finding);
+            for (const Warning& finding : findings) record.warnings.push_back(prefixed(mesh, finding));
         }
         record.source = source_record(surfaces[0]);
         Correspondence wanted;
@@ -69,8 +69,10 @@ class DistanceCommand final : public Command {
             matrix = distance_matrix(surfaces, wanted, {}, show, meshes_);
         }
         for (const auto& [i, j] : matrix.unsettled)
-            record.warnings.push_back(meshes_[i] + " and " + meshes_[j] +
-                                      ": a map has not converged or has folds, their distance is an estimate");
+            record.warnings.push_back({WarningKind::distance,
+                                       meshes_[i] + " and " + meshes_[j] +
+                                           ": a map has not converged or has folds, their distance is an estimate",
+                                       {Things::shapes, {i, j}}});
         record.distances = {meshes_, matrix, cluster_by_distance(matrix.distance)};
         if (!picture_.empty())
             write_atomically(picture_, render_dendrogram(names(), matrix.distance, record.distances->merges));
@@ -79,7 +81,8 @@ class DistanceCommand final : public Command {
         return 0;
     }
 
-    std::string hint() const override {
+    std::string hint(const Error& error) const override {
+        if (error.cause() != Cause::bad_mesh) return cli::hint(error);
         for (const std::string& mesh : meshes_)
             if (const std::string hint = options_.hint(mesh); !hint.empty()) return mesh + ": " + hint;
         return {};

@@ -42,7 +42,7 @@ class Flatten final : public Command {
         if (disk_) {
             Chart chart = round_disk_chart(source);
             solve.factorizations = chart.factorizations;
-            record.warnings.insert(record.warnings.end(), chart.warnings.begin(), chart.warnings.end());
+            append(record.warnings, chart.warnings);
             FoldFreeDisk disk = fold_free_disk(source, chart.vertices);
             solve.factorizations += disk.factorizations;
             if (!disk.fold_free)
@@ -51,7 +51,7 @@ class Flatten final : public Command {
                     "the map to the disk has folds that do not open: faces differ so much in size that rounding "
                     "decides about them",
                     "remesh the surface, with edges of like length side by side");
-            if (disk.changed) record.warnings.push_back(what_was_mended(disk));
+            if (disk.changed) record.warnings.push_back({WarningKind::mended, what_was_mended(disk)});
             map = std::move(disk.map);
         } else {
             Flattening flat = flatten(source.mesh);
@@ -59,9 +59,11 @@ class Flatten final : public Command {
             solve.iterations = flat.iterations;
             solve.factorizations = flat.factorizations;
             if (!flat.flipped.empty())
-                record.warnings.push_back(counted(flat.flipped.size(), "face comes", "faces come") +
-                                          " out flipped, as edges were flipped on the way; the first is face " +
-                                          std::to_string(flat.flipped[0]));
+                record.warnings.push_back({WarningKind::flipped_faces,
+                                           counted(flat.flipped.size(), "face comes", "faces come") +
+                                               " out flipped, as edges were flipped on the way; the first is face " +
+                                               std::to_string(flat.flipped[0]),
+                                           {Things::faces, flat.flipped}});
         }
         solve.termination = to_string(Termination::converged);
         solve.seconds_total = seconds() - start;
@@ -74,7 +76,7 @@ class Flatten final : public Command {
         return 0;
     }
 
-    std::string hint() const override { return options_.hint(source_); }
+    std::string hint(const Error& error) const override { return options_.hint(error, source_); }
 
   private:
     static std::string what_was_mended(const FoldFreeDisk& disk) {

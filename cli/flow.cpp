@@ -83,7 +83,7 @@ class Flow final : public Command {
         return 0;
     }
 
-    std::string hint() const override { return mesh_options_.hint(source_); }
+    std::string hint(const Error& error) const override { return mesh_options_.hint(error, source_); }
 
   private:
     void check() const {
@@ -139,9 +139,10 @@ class Flow final : public Command {
         const BoundaryCondition boundary = boundary_.values(source);
         require_loops(source, boundary);
         if (const std::size_t free = unprescribed_boundary(boundary, source).size(); free > 0)
-            record.warnings.push_back(counted(free, "boundary vertex is", "boundary vertices are") +
-                                      " free: of all maps with the others in their places this is the one whose "
-                                      "coefficient is nearest in the least-squares sense");
+            record.warnings.push_back({WarningKind::free_boundary,
+                                       counted(free, "boundary vertex is", "boundary vertices are") +
+                                           " free: of all maps with the others in their places this is the one whose "
+                                           "coefficient is nearest in the least-squares sense"});
         const Eigen::VectorXcd map = quasiconformal_map(source, mu, boundary);
         record.solve->termination = to_string(Termination::converged);
         record.solve->iterations = record.solve->factorizations = 1;
@@ -149,14 +150,17 @@ class Flow final : public Command {
         record.flow->error = coefficient_error(source, map, mu);
         if (!coefficient_fits(record.flow->error))
             record.warnings.push_back(
-                "the boundary values are not those of a map with this coefficient: the relative residual is " +
-                std::to_string(record.flow->error.residual) + ", of which " +
-                std::to_string(record.flow->error.misfit) +
-                " are no error of the mesh; the map is the least-squares one");
+                {WarningKind::coefficient,
+                 "the boundary values are not those of a map with this coefficient: the relative residual is " +
+                     std::to_string(record.flow->error.residual) + ", of which " +
+                     std::to_string(record.flow->error.misfit) +
+                     " are no error of the mesh; the map is the least-squares one"});
         const Distortion measured = distortion(source.operators, map);
         if (!measured.flipped.empty())
-            record.warnings.push_back("flipped faces in the result: " + std::to_string(measured.flipped.size()) +
-                                      "; it is not one-to-one there");
+            record.warnings.push_back({WarningKind::flipped_faces,
+                                       "flipped faces in the result: " + std::to_string(measured.flipped.size()) +
+                                           "; it is not one-to-one there",
+                                       {Things::faces, measured.flipped}});
         output_.write(source.mesh, map, measured, input_.attributes, input_.unit);
         close(source, map, measured, record);
     }
@@ -204,7 +208,7 @@ class Flow final : public Command {
         record.flow->target = onto_.path();
         record.flow->error = flow.error;
         record.flow->loops = flow.loops;
-        record.warnings.insert(record.warnings.end(), flow.warnings.begin(), flow.warnings.end());
+        append(record.warnings, flow.warnings);
         if (circles) {
             const std::vector<Complex> images(flow.map.begin(), flow.map.end());
             const std::vector<MeshPoint> places = locate_in_chart(*onto_.surface(), circles->chart.vertices, images);

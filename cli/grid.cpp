@@ -1,13 +1,11 @@
 #include <map>
 
+#include <beltrami/applications/conformal_carrier.h>
 #include <beltrami/applications/fitting_grid.h>
 #include <beltrami/applications/grid_on_surface.h>
 #include <beltrami/applications/reached_corners.h>
 #include <beltrami/base/error.h>
-#include <beltrami/constraints/prescribed_split.h>
 #include <beltrami/io/write_mesh.h>
-#include <beltrami/plane/disk_moebius.h>
-#include <beltrami/starts/target_model.h>
 
 #include "command.h"
 #include "map_methods.h"
@@ -112,7 +110,7 @@ class Grid final : public Command {
         return 0;
     }
 
-    std::string hint() const override { return options_.hint(source_); }
+    std::string hint(const Error& error) const override { return options_.hint(error, source_); }
 
   private:
     void check() const {
@@ -146,46 +144,34 @@ class Grid final : public Command {
     }
 
     MethodResult run_conformal(const Surface& source, double start, TargetDomain& domain, Record& record) const {
-        require_genus_zero(source);
+        ConformalCarrier carrier = conformal_carrier(source, outer_);
+        domain = std::move(carrier.domain);
         MethodResult done;
-        SplitProblem split = split_bridges(source);
-        if (split.split_edges > 0) {
-            record.split = split_record(split, source.mesh.vertex_count());
-            done.split = surface_of(std::move(split.mesh), std::move(split.metric));
+        if (carrier.split) {
+            record.split = split_record(*carrier.split, source.mesh.vertex_count());
+            done.split = surface_of(std::move(carrier.split->mesh), std::move(carrier.split->metric));
         }
-        const Surface& mapped = done.split ? *done.split : source;
-        CircleDomainChart chart = circle_domain_chart(mapped, outer_);
-        if (chart.holes.size() == 1) {  // a ring between circles of one centre
-            const DiskMoebius move = centring(chart.holes[0]);
-            chart.chart.vertices = move(chart.chart.vertices);
-            chart.holes[0] = move(chart.holes[0]);
-            chart.holes[0].centre = 0;
-        }
-        domain = circle_target(chart);
-        done.map = std::move(chart.chart.vertices);
-        done.distortion = distortion(mapped.operators, done.map);
-        record.map = map_record(done.distortion);
+        record.map = map_record(carrier.distortion);
         record.solve.emplace();
-        record.solve->iterations = chart.steps;
-        record.solve->termination = to_string(chart.converged ? Termination::converged : Termination::iteration_limit);
-        record.solve->factorizations = chart.factorizations;
+        record.solve->iterations = carrier.iterations;
+        record.solve->termination = to_string(carrier.termination);
+        record.solve->factorizations = carrier.factorizations;
         record.solve->seconds_total = seconds() - start;
-        record.warnings.insert(record.warnings.end(), chart.chart.warnings.begin(), chart.chart.warnings.end());
-        if (!chart.converged)
-            record.warnings.push_back("the conformal map that carries the grid stopped after " +
-                                      counted(chart.steps, "step", "steps") +
-                                      " before its circles settled: its holes are not quite round, and angles are off "
-                                      "near them");
+        append(record.warnings, carrier.warnings);
+        done.map = std::move(carrier.map);
+        done.distortion = std::move(carrier.distortion);
         done.pages.push_back({"conformal", positions_of(done.map), done.distortion.face_abs_mu});
         return done;
     }
 
     static void add_warnings(const SurfaceGrid& grid, Record& record) {
         if (const auto& folded = grid.quality.folded; !folded.empty())
-            record.warnings.push_back(counted(folded.size(), "face of the grid is", "faces of the grid are") +
-                                      " flipped or not convex on the surface: at a corner of the domain that its "
-                                      "boundary has not, or where it turns back; the first is face " +
-                                      std::to_string(folded[0]));
+            record.warnings.push_back({WarningKind::flipped_faces,
+                                       counted(folded.size(), "face of the grid is", "faces of the grid are") +
+                                           " flipped or not convex on the surface: at a corner of the domain that its "
+                                           "boundary has not, or where it turns back; the first is face " +
+                                           std::to_string(folded[0]),
+                                       {Things::faces, folded}});
     }
 
     void write_grid(const SurfaceGrid& grid) const {

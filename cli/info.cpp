@@ -46,7 +46,7 @@ class Info final : public Command {
         });
         if (mendable)
             if (const std::string hint = options_.hint(mesh_); !hint.empty())
-                record.warnings.push_back("hint: " + hint);
+                record.warnings.push_back({WarningKind::hint, "hint: " + hint});
         if (common_.may_print()) print(mesh, record.source);
         finish(record, common_, {}, {});
         return fatal ? exit_code(Cause::bad_mesh) : 0;

@@ -123,7 +123,7 @@ int main(int argc, char** argv) {
     const cli::Command* running = nullptr;
     const auto fail = [&](const std::string& sentence, int code) {
         if (running)
-            for (const std::string& warning : running->warnings()) cli::complain("warning: " + warning);
+            for (const Warning& warning : running->warnings()) cli::complain("warning: " + warning.sentence);
         cli::complain("beltrami: " + sentence);
         return code;
     };
@@ -145,11 +145,9 @@ int main(int argc, char** argv) {
                     cli::exit_code(Cause::bad_option));
     } catch (const Error& error) {
         std::string hint;
-        if (running && error.cause() == Cause::bad_mesh) {
-            try {
-                hint = running->hint();
-            } catch (const std::exception&) {  // what ails the mesh has been said
-            }
+        try {
+            if (running) hint = running->hint(error);
+        } catch (const std::exception&) {  // what ails the mesh has been said
         }
         return fail(error.what() + (hint.empty() ? hint : "\nhint: " + hint), cli::exit_code(error.cause()));
     } catch (const std::bad_alloc&) {

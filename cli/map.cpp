@@ -100,10 +100,11 @@ class Map final : public Command {
         if (onto_.given() || slide_.given()) return run_sliding(source, start, record);
         if (each_component_) return run_components(source, record);
         if (source.topology.genus > 0) require_genus_zero(source);
-        BoundaryCondition boundary = boundary_.values(source);
+        const Shape shape(source);
+        BoundaryCondition boundary = values(shape);
         const double unit = into_units(boundary);
 
-        MethodResult result = solve(source, boundary, start, record);
+        MethodResult result = solve(shape, boundary, start, record);
         const Surface& mapped = result.split ? *result.split : source;
         for (const std::string& other : compare_)
             if (other != method_) compare(mapped, boundary, other, result.pages, record);
@@ -119,7 +120,14 @@ class Map final : public Command {
         return 0;
     }
 
-    std::string hint() const override { return options_.hint(source_); }
+    std::string hint(const Error& error) const override {
+        if (error.where() == Where{Things::vertices, free_})
+            return "--boundary prescribes the outer loop, --hole a hole, --pin any vertex; --minimize max lets parts "
+                   "be free";
+        if (error.cause() == Cause::not_solved && error.where().of == Things::loops && minimize_ == "max")
+            return "the extremal map, without --minimize max, keeps its turns";
+        return options_.hint(error, source_);
+    }
 
   private:
     /// Onto a mesh on whose boundary that of the source is prescribed.
@@ -144,9 +152,10 @@ class Map final : public Command {
         MethodResult result = map_components(
             source,
             [&](const Surface& component, Record& own) {
-                BoundaryCondition boundary = boundary_.values(component);
+                const Shape shape(component);
+                BoundaryCondition boundary = values(shape);
                 units.push_back(into_units(boundary));
-                return solve(component, boundary, seconds(), own);
+                return solve(shape, boundary, seconds(), own);
             },
             record);
         const Surface& mapped = result.split ? *result.split : source;
@@ -159,6 +168,12 @@ class Map final : public Command {
                            counted(part.map.flipped, "flip", "flips"), part.solve.termination);
         finish(record, common_, "components", {output_.path(), common_.json, common_.report});
         return 0;
+    }
+
+    BoundaryCondition values(const Shape& shape) {
+        BoundaryCondition boundary = boundary_.values(shape);
+        free_ = unprescribed_boundary(boundary, shape.surface());
+        return boundary;
     }
 
     void check_each_component() const {
@@ -215,6 +230,7 @@ class Map final : public Command {
                         "leave it out");
         ExtremalOptions options;
         iteration_.apply(options);
+        options.start = start_map_.load(source.mesh, record.warnings);
         MethodResult result =
             run_onto(source, onto_, constraints, std::move(options), start, !common_.quiet, record, compare_);
         return write_onto(source, std::move(result), record);
@@ -263,8 +279,9 @@ class Map final : public Command {
         refuse(minimize_ != "K", "--minimize");
         for (const std::string& other : compare_) refuse(!slides(other), "--compare " + other);
         refuse(method_ != "extremal", "--method " + method_);
-        if (start_map_.given())
-            throw Error(Cause::bad_option, "--start-map belongs to prescribed boundary values, with --onto they slide",
+        if (start_map_.given() && (slide_.given() || boundary_.given()))
+            throw Error(Cause::bad_option,
+                        "--start-map is for boundaries that are prescribed, or slide by --onto alone",
                         "leave one of them out");
     }
 
@@ -329,59 +346,30 @@ class Map final : public Command {
             throw Error(Cause::bad_option, "--minimize " + minimize_ + " belongs to --method extremal");
     }
 
-    /// Boundary vertices that are free where every loop has some that are prescribed, two at least, else 0: a loop of
-    /// which nothing is said has been forgotten, unless --minimize max allows for it.
-    static int free_parts(const Surface& source, const BoundaryCondition& boundary) {
-        if (boundary.vertices.size() < 2) return 0;
-        std::vector<char> prescribed(static_cast<std::size_t>(source.mesh.vertex_count()), 0);
-        for (const int v : boundary.vertices) prescribed[v] = 1;
-        for (const std::vector<int>& loop : source.topology.boundary_loops)
-            if (std::none_of(loop.begin(), loop.end(), [&](int v) { return prescribed[v]; })) return 0;
-        return static_cast<int>(unprescribed_boundary(boundary, source).size());
-    }
-
-    MethodResult solve(const Surface& source, const BoundaryCondition& boundary, double start, Record& record) const {
+    MethodResult solve(const Shape& shape, const BoundaryCondition& boundary, double start, Record& record) const {
+        const Surface& source = shape.surface();
         if (method_ == "extremal") {
             Constraints constraints(boundary);
             constraints.correspondence.outer_loop = boundary_.outer_loop();
             homotopy_.apply(source, constraints.correspondence);
-            ExtremalOptions options;
-            options.slack = slack_;
-            options.start = start_map_.load(source.mesh, record.warnings);
-            if (options.start) *options.start /= unit_;
-            const int free = free_parts(source, boundary);
-            if (free > 0) {
-                if (certify_)
-                    throw Error(Cause::bad_boundary,
-                                std::to_string(free) +
-                                    " boundary vertices are free, and then no map attains the least K, which is 1: "
-                                    "there is nothing to certify",
-                                "prescribe the whole boundary, or leave out --certify");
-                if (minimize_ == "K")
-                    record.warnings.push_back(
-                        std::to_string(free) +
-                        " boundary vertices are free: no map attains the least K of the shape then, which is 1; this "
-                        "is the map whose largest |mu| on this mesh is least, as with --minimize max");
-            }
-            if (free > 0 && start_map_.given())
-                throw Error(Cause::bad_boundary,
-                            std::to_string(free) +
-                                " boundary vertices are free: the map of least maximum has starts of its own then",
-                            "prescribe the whole boundary, or leave out --start-map");
-            if (free > 0 && phi_.given())
-                throw Error(Cause::bad_boundary,
-                            std::to_string(free) + " boundary vertices are free: there is no extremal map, and no φ",
+            LeastDilatationOptions options;
+            options.what = minimize_ == "max" ? Least::maximum : Least::dilatation;
+            options.extremal.shapes = {&shape};
+            options.extremal.slack = slack_;
+            options.extremal.start = start_map_.load(source.mesh, record.warnings);
+            if (options.extremal.start) *options.extremal.start /= unit_;
+            options.maximum.extremal = options.extremal;
+            iteration_.apply(options.extremal);
+            iteration_.apply(options.maximum);
+            if (certify_)
+                return run_certified(source, constraints, std::move(options.extremal), *certify_ / 100, start,
+                                     !common_.quiet, record);
+            const bool least_maximum = takes_least_maximum(source, constraints, options.what);
+            if (!least_maximum) iteration_.require_no_power();
+            if (least_maximum && phi_.given())
+                throw Error(Cause::bad_boundary, "parts of the boundary are free: there is no extremal map, and no φ",
                             "prescribe the whole boundary, or leave out --phi");
-            if (minimize_ == "max" || free > 0) {
-                LeastMaximumOptions how;
-                how.extremal = std::move(options);
-                iteration_.apply(how);
-                return run_least_maximum(source, constraints, std::move(how), start, !common_.quiet, record);
-            }
-            iteration_.require_no_power();
-            iteration_.apply(options);
-            const std::optional<double> gap = certify_ ? std::optional(*certify_ / 100) : std::nullopt;
-            return run_extremal(source, constraints, std::move(options), gap, start, !common_.quiet, record);
+            return run_least_dilatation(source, constraints, std::move(options), start, !common_.quiet, record);
         }
         MethodRecord main;
         BaselineOptions options;
@@ -401,7 +389,7 @@ class Map final : public Command {
             other = run_baseline(mapped, method == "lscm" ? BoundaryCondition() : boundary, method, {}, seconds(), line,
                                  record.warnings);
         } catch (const Error& error) {
-            record.warnings.push_back(method + " is not in the comparison: " + error.what());
+            record.warnings.push_back({WarningKind::comparison, method + " is not in the comparison: " + error.what()});
             return;
         }
         record.comparison.push_back(std::move(line));
@@ -417,7 +405,8 @@ class Map final : public Command {
     std::vector<std::string> compare_;
     MeshInputOptions options_;
     MeshInput input_;
-    double unit_ = 1;  // of the images
+    double unit_ = 1;        // of the images
+    std::vector<int> free_;  // boundary vertices of the source
     OutputOptions output_;
     BoundaryOptions boundary_;
     OntoTarget onto_;

@@ -35,10 +35,6 @@ std::optional<Surface> split_surface(const std::optional<SplitProblem>& split) {
     return surface_of(split->mesh, split->metric);
 }
 
-void append(std::vector<std::string>& warnings, const std::vector<std::string>& more) {
-    warnings.insert(warnings.end(), more.begin(), more.end());
-}
-
 /// What an extremal map says beyond its numbers.
 void record_findings(const ExtremalMap& result, const Surface& source, Record& record) {
     if (!result.homotopy.holes.empty()) record.homotopy = result.homotopy;
@@ -81,20 +77,18 @@ const std::vector<std::string>& baseline_names() {
     return names;
 }
 
-MethodResult run_extremal(const Surface& source, const Constraints& constraints, ExtremalOptions options,
-                          std::optional<double> gap, double start, bool show, Record& record) {
-    ExtremalMap result = [&] {
+MethodResult run_certified(const Surface& source, const Constraints& constraints, ExtremalOptions options, double gap,
+                           double start, bool show, Record& record) {
+    Certification certified = [&] {
         Progress progress(show);  // gone before anything else is printed
         options.progress = [&](int iteration, double k) {
             progress.show(iteration, k);
             return true;
         };
-        if (!gap) return extremal_map(source, constraints, options);
-        Certification certified = certify(source, constraints, *gap, options);
-        record.certificate = certificate_record(certified, *gap);
-        return std::move(certified.result);
+        return certify(source, constraints, gap, options);
     }();
-    return finished(std::move(result), source, start, record);
+    record.certificate = certificate_record(certified, gap);
+    return finished(std::move(certified.result), source, start, record);
 }
 
 MethodResult run_between(const Surface& source, const OntoTarget& target, const Correspondence& wanted,
@@ -116,23 +110,13 @@ MethodResult run_between(const Surface& source, const OntoTarget& target, const 
     return done;
 }
 
-MethodResult run_least_maximum(const Surface& source, const Constraints& constraints, LeastMaximumOptions how,
-                               double start, bool show, Record& record) {
-    LeastMaximumMap result = [&] {
-        Progress progress(show);
-        how.extremal.progress = [&](int iteration, double k) {
-            progress.show(iteration, k);
-            return true;
-        };
-        how.progress = [&](int iteration, double energy) {
-            progress.show(iteration, energy, "energy");
-            return true;
-        };
-        return least_maximum_map(source, constraints, how);
-    }();
+namespace {
+
+/// The map of least maximum into the record and the pages.
+MethodResult finished(LeastMaximumMap result, double power, const Surface& source, double start, Record& record) {
     record.solve = solve_record(result, seconds() - start);
     record.map = map_record(result);
-    record.least_maximum = {how.power, result.start_max, result.distortion.max};
+    record.least_maximum = {power, result.start_max, result.distortion.max};
     if (result.extremal) {
         ExtremalMap start_map = *result.extremal;
         start_map.homotopy = result.homotopy;
@@ -151,6 +135,26 @@ MethodResult run_least_maximum(const Surface& source, const Constraints& constra
     done.map = std::move(result.map);
     done.distortion = std::move(result.distortion);
     return done;
+}
+
+}  // namespace
+
+MethodResult run_least_dilatation(const Surface& source, const Constraints& constraints, LeastDilatationOptions options,
+                                  double start, bool show, Record& record) {
+    LeastDilatationMap result = [&] {
+        Progress progress(show);
+        options.extremal.progress = options.maximum.extremal.progress = [&](int iteration, double k) {
+            progress.show(iteration, k);
+            return true;
+        };
+        options.maximum.progress = [&](int iteration, double energy) {
+            progress.show(iteration, energy, "energy");
+            return true;
+        };
+        return least_dilatation_map(source, constraints, options);
+    }();
+    if (result.extremal) return finished(std::move(*result.extremal), source, start, record);
+    return finished(std::move(*result.maximum), options.maximum.power, source, start, record);
 }
 
 const std::vector<std::string>& sliding_baseline_names() {
@@ -172,10 +176,11 @@ void run_t_map(const Surface& source, const TargetDomain& target, const Correspo
         line.solve.iterations = result.solves;
         line.solve.termination = to_string(result.termination);
         line.solve.factorizations = result.factorizations;
-        for (const std::string& warning : result.warnings) record.warnings.push_back("t-map: " + warning);
+        for (const Warning& warning : result.warnings) record.warnings.push_back(prefixed("t-map", warning));
         pages.push_back({"t-map", positions_of(result.map), result.distortion.face_abs_mu});
     } catch (const Error& error) {
-        record.warnings.push_back(std::string("t-map is not in the comparison: ") + error.what());
+        record.warnings.push_back(
+            {WarningKind::comparison, std::string("t-map is not in the comparison: ") + error.what()});
         return;
     }
     line.solve.seconds_total = seconds() - start;
@@ -224,8 +229,7 @@ MethodResult run_onto(const Surface& source, const OntoTarget& target, const Con
 }
 
 MethodResult run_baseline(const Surface& source, const BoundaryCondition& boundary, const std::string& method,
-                          const BaselineOptions& options, double start, MethodRecord& record,
-                          std::vector<std::string>& warnings) {
+                          const BaselineOptions& options, double start, MethodRecord& record, Warnings& warnings) {
     BaselineMap result = baselines().at(method)(source, boundary, options);
     record.method = method;
     record.solve.seconds_total = seconds() - start;
@@ -235,7 +239,7 @@ MethodResult run_baseline(const Surface& source, const BoundaryCondition& bounda
     MethodResult done;
     done.distortion = distortion(source.operators, result.map);
     record.map = map_record(done.distortion);
-    for (const std::string& warning : result.warnings) warnings.push_back(method + ": " + warning);
+    for (const Warning& warning : result.warnings) warnings.push_back(prefixed(method, warning));
     done.pages.push_back({method, positions_of(result.map), done.distortion.face_abs_mu});
     done.map = std::move(result.map);
     return done;

@@ -3,6 +3,7 @@
 #include <beltrami/baselines/baseline.h>
 #include <beltrami/report/page.h>
 #include <beltrami/report/record.h>
+#include <beltrami/teichmuller/least_dilatation.h>
 
 #include "onto_options.h"
 
@@ -25,21 +26,22 @@ struct MethodResult {
     Eigen::VectorXcd phi;                ///< #S its values, as the c-step had them; of others empty
 };
 
-/// The extremal map. Fills the record's map, solve, homotopy, corners, split and warnings.
+/// The extremal map or that of least maximum. Fills the record's map, solve, homotopy, corners, split, least_maximum
+/// and warnings.
 /// @param start      when the clock was started
-/// @param gap        wanted of K/K_lower − 1, by refinements; nothing: as it comes
 /// @param show       whether the terminal may show the iterations
-MethodResult run_extremal(const Surface& source, const Constraints& constraints, ExtremalOptions options,
-                          std::optional<double> gap, double start, bool show, Record& record);
+MethodResult run_least_dilatation(const Surface& source, const Constraints& constraints, LeastDilatationOptions options,
+                                  double start, bool show, Record& record);
+
+/// The extremal map with a proof; fills certificate too.
+/// @param gap wanted of the bracket of K
+MethodResult run_certified(const Surface& source, const Constraints& constraints, ExtremalOptions options, double gap,
+                           double start, bool show, Record& record);
 
 /// The extremal map onto a surface with prescribed boundary; fills correspondence too.
 /// @param boundary becomes the values on the target's circle domain, for other methods
 MethodResult run_between(const Surface& source, const OntoTarget& target, const Correspondence& wanted,
                          ExtremalOptions options, double start, bool show, Record& record, BoundaryCondition& boundary);
-
-/// The map of least largest |μ|; fills least_maximum too.
-MethodResult run_least_maximum(const Surface& source, const Constraints& constraints, LeastMaximumOptions how,
-                               double start, bool show, Record& record);
 
 /// Names of the methods that can be set beside it where the boundary slides.
 const std::vector<std::string>& sliding_baseline_names();
@@ -52,7 +54,6 @@ MethodResult run_onto(const Surface& source, const OntoTarget& target, const Con
 
 /// Another method.
 MethodResult run_baseline(const Surface& source, const BoundaryCondition& boundary, const std::string& method,
-                          const BaselineOptions& options, double start, MethodRecord& record,
-                          std::vector<std::string>& warnings);
+                          const BaselineOptions& options, double start, MethodRecord& record, Warnings& warnings);
 
 }  // namespace beltrami::cli

@@ -30,13 +30,13 @@ bool is_topological(Defect defect) {
 
 /// The record of a mesh whose faces all have a shape; of a mesh without topology, with warnings instead of it.
 /// @throw Error bad_mesh
-SourceRecord examine(const Mesh& mesh, std::vector<std::string>& warnings) {
+SourceRecord examine(const Mesh& mesh, Warnings& warnings) {
     const std::vector<Finding> findings = diagnose(mesh);
     bool sound = true;
     for (const Finding& finding : findings) {
         if (!finding.fatal) continue;
         if (!is_topological(finding.defect))
-            throw Error(Cause::bad_mesh, finding.sentence, finding.next_step, finding.indices);
+            throw Error(Cause::bad_mesh, finding.sentence, finding.next_step, finding.where());
         sound = false;
     }
     add_findings(findings, warnings);
@@ -70,26 +70,30 @@ class Measure final : public Command {
         record.map = map_record(d);
         if (certify_) add_bounds(source, *record.map);
         if (!d.flipped.empty() && static_cast<int>(d.flipped.size()) == source.face_count()) {
-            record.warnings.push_back(source.face_count() == 1 ? "the only face is flipped: the image is mirrored"
-                                                               : "every face is flipped: the image is mirrored");
+            record.warnings.push_back({WarningKind::flipped_faces,
+                                       source.face_count() == 1 ? "the only face is flipped: the image is mirrored"
+                                                                : "every face is flipped: the image is mirrored",
+                                       {Things::faces, d.flipped}});
         } else {
-            warn_of(d.flipped, "face is flipped", "faces are flipped", record.warnings);
+            warn_of(WarningKind::flipped_faces, d.flipped, "face is flipped", "faces are flipped", record.warnings);
         }
-        warn_of(d.degenerate, "face collapses", "faces collapse", record.warnings);
+        warn_of(WarningKind::degenerate_faces, d.degenerate, "face collapses", "faces collapse", record.warnings);
         write_page(common_.report, page_mesh_ ? *page_mesh_ : source, {{"measured", image_positions_, d.face_abs_mu}},
                    {}, record, source_);
         finish(record, common_, "measured", {common_.json, common_.report});
         return 0;
     }
 
-    std::string hint() const override { return options_.hint(source_); }
+    std::string hint(const Error& error) const override { return options_.hint(error, source_); }
 
   private:
-    static void warn_of(const std::vector<int>& faces, const char* one, const char* many,
-                        std::vector<std::string>& warnings) {
+    static void warn_of(WarningKind kind, const std::vector<int>& faces, const char* one, const char* many,
+                        Warnings& warnings) {
         if (faces.empty()) return;
-        warnings.push_back(counted(faces.size(), one, many) + (faces.size() == 1 ? ": " : ", the first is ") + "face " +
-                           std::to_string(faces[0]));
+        warnings.push_back({kind,
+                            counted(faces.size(), one, many) + (faces.size() == 1 ? ": " : ", the first is ") +
+                                "face " + std::to_string(faces[0]),
+                            {Things::faces, faces}});
     }
 
     void add_bounds(const Mesh& source, MapRecord& record) const {
@@ -108,7 +112,7 @@ class Measure final : public Command {
             const Complex image(corners(c, 0), below ? -corners(c, 1) : corners(c, 1));
             if (known[v] && map[v] != image)
                 throw Error(Cause::bad_mesh, "the texture coordinates have a seam at vertex " + std::to_string(v),
-                            "cut SOURCE along the seam", {v});
+                            "cut SOURCE along the seam", {Things::vertices, {v}});
             known[v] = 1;
             map[v] = image;
         }
@@ -139,10 +143,10 @@ class Measure final : public Command {
         image_positions_ = corners;
     }
 
-    Distortion to_mesh(const Mesh& source, std::vector<std::string>& warnings) {
+    Distortion to_mesh(const Mesh& source, Warnings& warnings) {
         const LoadedMesh read = read_mesh(image_);
         const FaceList& faces = input_.file_faces ? *input_.file_faces : source.faces;
-        warnings.insert(warnings.end(), read.warnings.begin(), read.warnings.end());
+        append(warnings, read.warnings);
         if (read.mesh.vertex_count() != static_cast<int>(input_.numbers.size()) || read.mesh.faces != faces)
             throw Error(Cause::bad_mesh, "SOURCE and IMAGE do not have the same vertices and faces in the same order",
                         "write both from one program without reordering");

@@ -62,11 +62,13 @@ void require_indices(const Mesh& mesh) {
 
 }  // namespace
 
-void cut_folded_quads(MeshInput& input, std::vector<std::string>& warnings) {
+void cut_folded_quads(MeshInput& input, Warnings& warnings) {
     SplitMesh split = split_unusable_faces(input.mesh);
     if (split.cut.empty()) return;
-    warnings.push_back(counted(split.cut.size(), "quad that folds was", "quads that fold were") +
-                       " cut into triangles; the first is face " + std::to_string(split.cut[0]));
+    warnings.push_back({WarningKind::mended,
+                        counted(split.cut.size(), "quad that folds was", "quads that fold were") +
+                            " cut into triangles; the first is face " + std::to_string(split.cut[0]),
+                        {Things::faces, split.cut}});
     std::vector<int> same(static_cast<std::size_t>(input.mesh.vertex_count()));
     std::iota(same.begin(), same.end(), 0);
     replace(input, std::move(split.mesh), same, split.faces, same);
@@ -82,11 +84,11 @@ int MeshInput::number_of(int file_vertex, const std::string& what) const {
         throw Error(Cause::bad_boundary,
                     fmt::format("vertex {}, {}, does not exist: the file has the vertices 0 to {}", file_vertex, what,
                                 numbers.size() - 1),
-                    "vertices are counted from 0, as the file has them", {file_vertex});
+                    "vertices are counted from 0, as the file has them", {Things::vertices, {file_vertex}});
     if (numbers[file_vertex] < 0)
         throw Error(Cause::bad_boundary,
                     fmt::format("vertex {}, {}, is not in the part of the mesh that is kept", file_vertex, what),
-                    "name another one", {file_vertex});
+                    "name another one", {Things::vertices, {file_vertex}});
     return numbers[file_vertex];
 }
 
@@ -101,13 +103,13 @@ void MeshInputOptions::add_to(CLI::App& app) {
                  "them; messages and OUT as they are after this, --keep-largest and --weld");
 }
 
-MeshInput MeshInputOptions::load(const std::string& path, std::vector<std::string>& warnings) const {
+MeshInput MeshInputOptions::load(const std::string& path, Warnings& warnings) const {
     LoadedMesh loaded = read_mesh(path);
-    warnings.insert(warnings.end(), loaded.warnings.begin(), loaded.warnings.end());
+    append(warnings, loaded.warnings);
     return mend(std::move(loaded), warnings);
 }
 
-MeshInput MeshInputOptions::mend(LoadedMesh loaded, std::vector<std::string>& warnings) const {
+MeshInput MeshInputOptions::mend(LoadedMesh loaded, Warnings& warnings) const {
     MeshInput input = unmended(std::move(loaded));
     if (weld_ || orient_ || keep_largest_ || drop_unreferenced_) {
         require_indices(input.mesh);
@@ -116,34 +118,40 @@ MeshInput MeshInputOptions::mend(LoadedMesh loaded, std::vector<std::string>& wa
     if (weld_) {
         const int before = input.mesh.vertex_count();
         WeldedMesh welded = weld(input.mesh, *weld_);
-        warnings.push_back(fmt::format(
-            "{} welded to {}{}", counted(before, "vertex was", "vertices were"), welded.mesh.vertex_count(),
-            welded.removed_faces > 0 ? ", and " + counted(welded.removed_faces, "face", "faces") + " went" : ""));
+        warnings.push_back(
+            {WarningKind::mended,
+             fmt::format(
+                 "{} welded to {}{}", counted(before, "vertex was", "vertices were"), welded.mesh.vertex_count(),
+                 welded.removed_faces > 0 ? ", and " + counted(welded.removed_faces, "face", "faces") + " went" : "")});
         replace(input, std::move(welded.mesh), welded.vertices, welded.faces, welded.welded);
     }
     if (orient_) {
         OrientedMesh oriented = orient(input.mesh);
         if (!oriented.turned.empty())
-            warnings.push_back(counted(oriented.turned.size(), "face was", "faces were") +
-                               " turned to agree with its "
-                               "neighbours, the first is face " +
-                               std::to_string(oriented.turned[0]));
+            warnings.push_back({WarningKind::mended,
+                                counted(oriented.turned.size(), "face was", "faces were") +
+                                    " turned to agree with its "
+                                    "neighbours, the first is face " +
+                                    std::to_string(oriented.turned[0]),
+                                {Things::faces, oriented.turned}});
         input.mesh = std::move(oriented.mesh);
     }
     if (keep_largest_) {
         const int before = input.mesh.face_count();
         keep(input, largest_component(input.mesh));
         if (input.mesh.face_count() < before)
-            warnings.push_back(fmt::format("the largest component, of {}, was kept of {}",
-                                           counted(input.mesh.face_count(), "face", "faces"), before));
+            warnings.push_back(
+                {WarningKind::mended, fmt::format("the largest component, of {}, was kept of {}",
+                                                  counted(input.mesh.face_count(), "face", "faces"), before)});
     }
     if (drop_unreferenced_) {
         const int before = input.mesh.vertex_count();
         keep(input, remove_unreferenced(input.mesh));
         if (input.mesh.vertex_count() < before)
             warnings.push_back(
-                counted(before - input.mesh.vertex_count(), "vertex without faces was", "vertices without faces were") +
-                " left out");
+                {WarningKind::mended, counted(before - input.mesh.vertex_count(), "vertex without faces was",
+                                              "vertices without faces were") +
+                                          " left out"});
     }
     if (input.mesh.vertex_count() > 0 && input.mesh.positions.allFinite()) {
         const Eigen::RowVectorXd low = input.mesh.positions.colwise().minCoeff(),
@@ -154,8 +162,12 @@ MeshInput MeshInputOptions::mend(LoadedMesh loaded, std::vector<std::string>& wa
     return input;
 }
 
+std::string MeshInputOptions::hint(const Error& error, const std::string& path) const {
+    return error.cause() == Cause::bad_mesh ? hint(path) : cli::hint(error);
+}
+
 std::string MeshInputOptions::hint(const std::string& path) const {
-    std::vector<std::string> ignored;
+    Warnings ignored;
     const MeshInput input = load(path, ignored);
     for (const Finding& finding : diagnose(input.mesh)) {
         if (finding.defect == Defect::inconsistent_orientation && !orient_) return "--orient turns these faces";

@@ -8,6 +8,8 @@
 
 #include <beltrami/io/read_mesh.h>
 
+#include "hints.h"
+
 namespace beltrami::cli {
 
 /// A mesh with what its file says beside it, mended as MeshInputOptions want it.
@@ -29,7 +31,7 @@ struct MeshInput {
 };
 
 /// Cuts the faces that no map can be measured on as they are, quads that fold, into triangles, with a warning.
-void cut_folded_quads(MeshInput& input, std::vector<std::string>& warnings);
+void cut_folded_quads(MeshInput& input, Warnings& warnings);
 
 /// --weld, --orient, --keep-largest, --drop-unreferenced: what is to be mended of a mesh before anything else.
 class MeshInputOptions {
@@ -37,11 +39,13 @@ class MeshInputOptions {
     void add_to(CLI::App& app);
     /// Reads a mesh and mends it, in the order above; what was done is said in a warning.
     /// @throw Error unreadable, bad_mesh
-    MeshInput load(const std::string& path, std::vector<std::string>& warnings) const;
+    MeshInput load(const std::string& path, Warnings& warnings) const;
     /// The same of a mesh that has been read.
-    MeshInput mend(LoadedMesh loaded, std::vector<std::string>& warnings) const;
+    MeshInput mend(LoadedMesh loaded, Warnings& warnings) const;
     /// Which of these options would help a mesh that cannot be mapped; empty if none would.
     std::string hint(const std::string& path) const;
+    /// The same after an error about the mesh; after others what cli::hint() says.
+    std::string hint(const Error& error, const std::string& path) const;
     /// The command can map the components one by one.
     void allow_each_component() { each_component_ = true; }
 

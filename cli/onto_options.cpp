@@ -74,7 +74,7 @@ std::vector<NamedFile> OntoTarget::inputs() const {
             {"--correspondence", correspondence_file_}};
 }
 
-void OntoTarget::load(const MeshInput& input, std::vector<std::string>& warnings) {
+void OntoTarget::load(const MeshInput& input, Warnings& warnings) {
     if (lower_case_extension(path_) == ".json") {
         domain_ = read_target_domain(path_);
     } else if (kinds_ == Kinds::domains) {
@@ -98,7 +98,7 @@ void OntoTarget::load(const MeshInput& input, std::vector<std::string>& warnings
         throw Error(Cause::bad_option, "--places is about the faces of a mesh, TARGET is a domain", "leave it out");
 }
 
-void OntoTarget::read_marks(const MeshInput& input, std::vector<std::string>& warnings) {
+void OntoTarget::read_marks(const MeshInput& input, Warnings& warnings) {
     if (!marks_file_.empty()) {
         if (!domain_)
             throw Error(Cause::bad_option, "--marks is about the curves of a domain, TARGET is a mesh",
@@ -113,9 +113,11 @@ void OntoTarget::read_marks(const MeshInput& input, std::vector<std::string>& wa
             const double part = distance_from(*domain_, mark, place);
             if (part > kFarMark)
                 warnings.push_back(
-                    fmt::format("the place of the marked vertex {} is {:.2g} % of the length of {} away "
-                                "from that curve, the nearest one; its nearest point is taken",
-                                vertex, 100 * part, curve_name(on_curve(mark).curve)));
+                    {WarningKind::marks,
+                     fmt::format("the place of the marked vertex {} is {:.2g} % of the length of {} away "
+                                 "from that curve, the nearest one; its nearest point is taken",
+                                 vertex, 100 * part, curve_name(on_curve(mark).curve)),
+                     {Things::vertices, {vertex}}});
         }
     }
     const auto read_pairs = [&](const std::string& option, const std::string& file, const char* instead) {

@@ -37,7 +37,7 @@ class OntoTarget {
 
     /// Reads the target and the options' files. The reader's warnings are added.
     /// @throw Error unreadable, bad_option, bad_boundary
-    void load(const MeshInput& source, std::vector<std::string>& warnings);
+    void load(const MeshInput& source, Warnings& warnings);
     /// One of them is there. @pre load()
     const std::optional<TargetDomain>& domain() const { return domain_; }
     const std::optional<Surface>& surface() const { return surface_; }
@@ -49,7 +49,7 @@ class OntoTarget {
     void write_places(const std::vector<MeshPoint>& places) const;
 
   private:
-    void read_marks(const MeshInput& input, std::vector<std::string>& warnings);
+    void read_marks(const MeshInput& input, Warnings& warnings);
 
     Kinds kinds_ = Kinds::meshes_and_domains;
 

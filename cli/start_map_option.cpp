@@ -16,7 +16,7 @@ void StartMapOption::add_to(CLI::App& app) {
         ->type_name("FILE");
 }
 
-std::optional<Eigen::VectorXcd> StartMapOption::load(const Mesh& source, std::vector<std::string>& warnings) const {
+std::optional<Eigen::VectorXcd> StartMapOption::load(const Mesh& source, Warnings& warnings) const {
     if (!given()) return {};
     const Mesh start = cli::load(path_, warnings);
     const std::string other = "--start-map " + path_ + " is another mesh than SOURCE: ",
@@ -34,12 +34,13 @@ std::optional<Eigen::VectorXcd> StartMapOption::load(const Mesh& source, std::ve
     for (int f = 0; f < source.face_count(); ++f) {
         const auto a = start.faces[f], b = source.faces[f];
         if (!std::equal(a.begin(), a.end(), b.begin(), b.end()))
-            throw Error(Cause::bad_mesh, other + "face " + std::to_string(f) + " has other vertices", next, {f});
+            throw Error(Cause::bad_mesh, other + "face " + std::to_string(f) + " has other vertices", next,
+                        {Things::faces, {f}});
     }
     try {
         return texture_map(start);
     } catch (const Error& error) {
-        throw Error(error.cause(), "--start-map " + path_ + ": " + error.what(), {}, error.indices());
+        throw Error(error.cause(), "--start-map " + path_ + ": " + error.what(), {}, error.where());
     }
 }
 

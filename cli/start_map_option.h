@@ -18,7 +18,7 @@ class StartMapOption {
     std::vector<NamedFile> inputs() const { return {{"--start-map", path_}}; }
     /// #V images; nothing if there is none. Warnings of the reader are added.
     /// @throw Error unreadable, bad_mesh naming what differs from SOURCE
-    std::optional<Eigen::VectorXcd> load(const Mesh& source, std::vector<std::string>& warnings) const;
+    std::optional<Eigen::VectorXcd> load(const Mesh& source, Warnings& warnings) const;
 
   private:
     std::string path_;

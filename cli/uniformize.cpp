@@ -78,7 +78,7 @@ class Uniformize final : public Command {
         return 0;
     }
 
-    std::string hint() const override { return options_.hint(source_); }
+    std::string hint(const Error& error) const override { return options_.hint(error, source_); }
 
   private:
     void to_circles(const Surface& source, const MeshInput& input, double start) {
@@ -91,12 +91,13 @@ class Uniformize final : public Command {
         solve.seconds_total = seconds() - start;
         record_.solve = solve;
         record_.uniformization = uniformization_record(found);
-        const std::vector<std::string>& more = chart.chart.warnings;
-        record_.warnings.insert(record_.warnings.end(), more.begin(), more.end());
+        append(record_.warnings, chart.chart.warnings);
         const Distortion d = distortion(source.operators, found.map);
         if (!d.flipped.empty())
-            record_.warnings.push_back(counted(d.flipped.size(), "face comes", "faces come") +
-                                       " out flipped; the first is face " + std::to_string(d.flipped[0]));
+            record_.warnings.push_back({WarningKind::flipped_faces,
+                                        counted(d.flipped.size(), "face comes", "faces come") +
+                                            " out flipped; the first is face " + std::to_string(d.flipped[0]),
+                                        {Things::faces, d.flipped}});
         record_.map = map_record(d);
         output_.write(source.mesh, found.map, d, input.attributes, input.unit);
         conclude(source, positions_of(found.map), d, "conformal");
@@ -111,7 +112,7 @@ class Uniformize final : public Command {
         solve.seconds_total = seconds() - start;
         record_.solve = solve;
         record_.sphere = sphere_record(found);
-        record_.warnings.insert(record_.warnings.end(), found.warnings.begin(), found.warnings.end());
+        append(record_.warnings, found.warnings);
         record_.map = map_record(found.distortion);
         output_.write_sphere(source.mesh, found.positions, found.distortion, input.attributes, input.unit);
         conclude(source, found.positions, found.distortion,

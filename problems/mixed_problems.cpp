@@ -161,7 +161,7 @@ MixedProblemCase pins_in_sliding_disk(double h, int pins, bool back) {
     if (pins == 2) {
         const double ratio = groetzsch(hyperbolic(from[0], from[1])) / groetzsch(hyperbolic(to[0], to[1]));
         const double K = std::max(ratio, 1 / ratio);
-        result.exact_k = (K - 1) / (K + 1);
+        result.exact_k = k_of(K);
     }
     return result;
 }

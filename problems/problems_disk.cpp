@@ -132,7 +132,7 @@ Problem four_points(double edge_length) {
     return with_exact_map("four_points",
                           "The disk to itself, the boundary points ±π/4, π ± π/4 moved to ±π/8, π ± π/8; between them "
                           "the values of the extremal map (conformal to a rectangle, affine, conformal back)",
-                          disk(rings), f, (ratio - 1) / (ratio + 1));
+                          disk(rings), f, k_of(ratio));
 }
 
 Problem bean(double edge_length) {
@@ -240,7 +240,7 @@ Problem sector(double edge_length) {
     const double radial = 1.2, around = 2.4, ratio = around / radial;
     return with_exact_map(
         "sector", "The unit square to a sector of an annulus by exp(1.2 x + 2.4 i y)", unit_square(edge_length),
-        [=](Complex z) { return std::exp(Complex(radial * z.real(), around * z.imag())); }, (ratio - 1) / (ratio + 1));
+        [=](Complex z) { return std::exp(Complex(radial * z.real(), around * z.imag())); }, k_of(ratio));
 }
 
 }  // namespace beltrami::bench

@@ -30,8 +30,7 @@ Problem ring(double edge_length) {
     const double K = std::log(0.3) / std::log(0.5);
     return with_exact_map(
         "ring", "The ring .5 < |z| < 1 to .3 < |w| < 1, boundary values along the radii",
-        round_annulus(0.5, edge_length), [=](Complex z) { return z * std::pow(std::abs(z), K - 1); },
-        (K - 1) / (K + 1));
+        round_annulus(0.5, edge_length), [=](Complex z) { return z * std::pow(std::abs(z), K - 1); }, k_of(K));
 }
 
 // In log z the map is linear, [[κ, 0], [s, 1]] on (log r, angle), and s turns the inner circle by s·log(r0).
@@ -48,7 +47,7 @@ Problem annulus_turns(double edge_length, int turns) {
             const double log_r = std::log(std::abs(z));
             return std::polar(std::exp(kappa * log_r), std::arg(z) + s * log_r);
         },
-        (K - 1) / (K + 1));
+        k_of(K));
     problem.turns = {0, turns};
     return problem;
 }

@@ -68,10 +68,6 @@ SolvedOnto solve_onto(const std::function<ExtremalMap()>& solver) {
     return result;
 }
 
-double k_of(double K) {
-    return (K - 1) / (K + 1);
-}
-
 std::string write(Output& output, const std::string& name, const Surface& source, const SolvedOnto& solved) {
     return output.write(name, solved.mesh(source), solved.all->map, solved.all->distortion.face_abs_mu);
 }

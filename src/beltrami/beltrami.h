@@ -2,10 +2,13 @@
 
 /// The one header that most users include.
 
+#include <beltrami/applications/conformal_carrier.h>
 #include <beltrami/applications/fitting_grid.h>
 #include <beltrami/applications/grid_on_surface.h>
 #include <beltrami/applications/reached_corners.h>
+#include <beltrami/base/effort.h>
 #include <beltrami/base/error.h>
+#include <beltrami/base/warning.h>
 #include <beltrami/baselines/baseline.h>
 #include <beltrami/certificate/certificate.h>
 #include <beltrami/certificate/proved_bounds.h>
@@ -17,6 +20,7 @@
 #include <beltrami/charts/circle_matching.h>
 #include <beltrami/charts/domain_chart.h>
 #include <beltrami/charts/round_disk.h>
+#include <beltrami/charts/shape.h>
 #include <beltrami/charts/uniformization.h>
 #include <beltrami/constraints/boundary_corners.h>
 #include <beltrami/constraints/boundary_feasibility.h>
@@ -68,7 +72,7 @@
 #include <beltrami/teichmuller/extremal_between.h>
 #include <beltrami/teichmuller/extremal_map.h>
 #include <beltrami/teichmuller/extremal_solver.h>
-#include <beltrami/teichmuller/least_maximum.h>
+#include <beltrami/teichmuller/least_dilatation.h>
 #include <beltrami/unfold/fold_free.h>
 #include <beltrami/uniformize/flatten.h>
 #include <beltrami/uniformize/sphere_map.h>

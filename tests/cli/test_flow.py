@@ -213,6 +213,19 @@ class Sliding(Command):
         self.record(*arguments, "--start-map", self.path("start.obj"))
         np.testing.assert_allclose(read_obj(self.out)[1], first, atol=1e-8)
 
+    def test_a_start_whose_boundary_is_out_of_order(self):
+        arguments = ("flow", self.source, "--mu", self.mu, "--onto", self.target, "-o", self.out, "--start-map",
+                     self.path("start.obj"))
+        write_obj(self.path("start.obj"), self.points, self.faces, self.exact)
+        self.record(*arguments)
+        first = read_obj(self.out)[1]
+        jumbled = self.exact.copy()
+        jumbled[[3, 7]] = jumbled[[7, 3]]
+        write_obj(self.path("start.obj"), self.points, self.faces, jumbled)
+        record = self.record(*arguments)
+        self.assertEqual(record["map"]["flipped"], 0)
+        np.testing.assert_allclose(read_obj(self.out)[1], first, atol=1e-4)
+
     def test_mistakes(self):
         base = ("flow", self.source, "--mu", self.mu, "--onto", self.target, "-o", self.out)
 
@@ -224,10 +237,8 @@ class Sliding(Command):
         refused(2, "--tolerance", "-1", says="--tolerance")
         refused(2, "--max-iterations", "0", says="--max-iterations")
         refused(4, "--start-map", self.source, says="no texture coordinates")
-        jumbled = self.exact.copy()
-        jumbled[[3, 7]] = jumbled[[7, 3]]
-        write_obj(self.path("jumbled.obj"), self.points, self.faces, jumbled)
-        refused(5, "--start-map", self.path("jumbled.obj"), says="keeps the order of the boundary vertices")
+        write_obj(self.path("backwards.obj"), self.points, self.faces, self.exact * [1, -1])
+        refused(5, "--start-map", self.path("backwards.obj"), says="keeps the order of the boundary vertices")
         points, faces = ring(24, 4, 0.5)
         write_obj(self.path("other.obj"), points, faces, points)
         refused(4, "--start-map", self.path("other.obj"), says="another mesh than SOURCE: it has 120 vertices")

@@ -117,6 +117,16 @@ class Onto(WithRing):
             self.assertEqual(len(record["onto"]["path"]), 2)
             self.assertEqual(record["map"]["flipped"], 0)
             found.append(record["map"]["k"])
+            # A start has the class of its own map, noise or not.
+            v, vt, f = read_obj(self.path("out.obj"))
+            turn = 7.0 * np.arange(len(vt)) ** 2
+            write_obj(self.path("start.obj"), v, f, vt + 0.01 * np.column_stack([np.cos(turn), np.sin(turn)]))
+            again = self.record("map", self.path("three.obj"), "--onto", target, "--loops",
+                                f"0:0,{left}:1,{right}:2,{below}:3", "--start-map", self.path("start.obj"),
+                                "-o", self.path("again.obj"))
+            self.assertEqual(again["map"]["flipped"], 0)
+            self.assertEqual(again["warnings"], [])
+            self.assertAlmostEqual(again["map"]["k"], found[-1], delta=1e-4)
         self.assertGreater(abs(found[0] - found[1]), 1e-3)
 
 

@@ -52,7 +52,7 @@ TEST(Corners, TheHalfPlaneMapIsNotOfTeichmuellerType) {
         EXPECT_GT(solved.result.sharpest->safe_bound, solved.result.K);
         EXPECT_LE(solved.result.sharpest->safe_bound, 2.0);
         EXPECT_LE(solved.result.K_lower, 2.0);
-        EXPECT_NE(solved.result.warnings[0].find("vertex " + std::to_string(solved.result.sharpest->vertex)),
+        EXPECT_NE(solved.result.warnings[0].sentence.find("vertex " + std::to_string(solved.result.sharpest->vertex)),
                   std::string::npos);
         EXPECT_GT(solved.result.sharpest->safe_bound, last);
         last = solved.result.sharpest->safe_bound;

@@ -82,7 +82,7 @@ TEST(FlowExample3, HasTheOrdersOfThePaper) {
         EXPECT_EQ(result.termination, Termination::converged);
         EXPECT_TRUE(result.one_to_one());
         EXPECT_TRUE(result.fits);
-        for (const std::string& warning : result.warnings) ADD_FAILURE() << warning;
+        for (const Warning& warning : result.warnings) ADD_FAILURE() << warning.sentence;
         coordinates.push_back(distance(result.map, exact));
         coefficients.push_back(result.error.sup);
         means.push_back(result.error.l2);

@@ -31,7 +31,7 @@ void expect_sound(const ExtremalMap& result) {
     EXPECT_LE(result.K_lower, result.K);
     EXPECT_LE(result.K, result.K_max);
     EXPECT_LT(result.K_upper / result.K_lower, 1.01);
-    for (const std::string& warning : result.warnings) ADD_FAILURE() << warning;
+    for (const Warning& warning : result.warnings) ADD_FAILURE() << warning.sentence;
 }
 
 double vertex_error(const MixedProblemCase& problem, const ExtremalMap& result) {

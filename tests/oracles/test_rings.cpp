@@ -56,7 +56,7 @@ TEST_P(LargeTurnedRings, HaveTheirClosedForm) {
     EXPECT_EQ(solved.problem.mesh.face_count(), 15840);
     expect_sound(result);
     EXPECT_EQ(result.termination, Termination::converged);
-    EXPECT_TRUE(result.warnings.empty()) << result.warnings.front();
+    EXPECT_TRUE(result.warnings.empty()) << result.warnings.front().sentence;
     EXPECT_NEAR(result.K / solved.exact_K, 1, K_tolerance);
     EXPECT_LE(result.K_lower, solved.exact_K);
     EXPECT_GE(result.K_lower, 0.985 * solved.exact_K);
@@ -135,7 +135,7 @@ TEST(Starts, FoldedBeyondRescueGiveWayToTheHarmonicOne) {
     EXPECT_GT(bad.iterations, plain.iterations);
     ASSERT_EQ(bad.warnings.size(), plain.warnings.size() + 1);
     EXPECT_EQ(std::count_if(bad.warnings.begin(), bad.warnings.end(),
-                            [](const std::string& w) { return w.find("from the start that was given") == 0; }),
+                            [](const Warning& w) { return w.kind == WarningKind::start; }),
               1);
 }
 

@@ -23,10 +23,6 @@ using test::Hole;
 
 constexpr double kPi = std::numbers::pi;
 
-double k_of(double K) {
-    return (K - 1) / (K + 1);
-}
-
 TEST(SlidingRing, ConvergesToTheRadialStretchWithSecondOrder) {
     const double exact = std::log(0.3) / std::log(0.5);
     double last_error = 0, last_std = 0;
@@ -242,6 +238,53 @@ TEST(SlidingClasses, HolesThatChangePlacesEitherWayAreTwoMaps) {
         EXPECT_EQ(result.termination, Termination::converged);
     }
     EXPECT_GT(std::abs(results[0].k - results[1].k), 1e-3);
+}
+
+TEST(SlidingClasses, AGivenStartKeepsItsClass) {
+    const Surface source(disk_with_holes({{-0.35, 0.25, 0.12}, {0.35, 0.25, 0.12}, {0, -0.5, 0.15}}, 0.06));
+    const TargetDomain target = circles_target({{0.35, 0.25, 0.12}, {-0.35, 0.2, 0.14}, {0.1, -0.5, 0.15}});
+    Correspondence wanted;
+    wanted.loops = {{0, 0}, {1, 1}, {2, 2}, {3, 3}};
+    std::vector<double> found;
+    for (const double sign : {1.0, -1.0}) {
+        Correspondence led = wanted;
+        led.waypoints =
+            std::vector<Waypoint>{{1, 1, Complex(0, 0.25 - 0.25 * sign)}, {1, 2, Complex(0, 0.25 + 0.25 * sign)}};
+        const ExtremalMap there = extremal_map(source, {target, led});
+        ExtremalOptions options;
+        options.start = there.map;
+        for (int v = 0; v < source.mesh.vertex_count(); ++v)  // some faces fold, and rims leave their circles
+            (*options.start)[v] += 0.02 * std::polar(1.0, 7.0 * v * v);
+        const ExtremalMap again = extremal_map(source, {target, wanted}, options);
+        EXPECT_GT(again.start_flips, 0);
+        EXPECT_TRUE(again.warnings.empty()) << again.warnings[0].sentence;
+        EXPECT_TRUE(again.one_to_one());
+        EXPECT_NEAR(again.k, there.k, 2e-5);
+        found.push_back(again.k);
+    }
+    EXPECT_GT(std::abs(found[0] - found[1]), 1e-3);
+}
+
+TEST(SlidingClasses, AStartThatLeadsNowhereIsGivenUp) {
+    const Surface source(disk_with_holes({{-0.4, 0.1, 0.2}, {0.35, 0, 0.25}}, 0.1));
+    const TargetDomain target = circles_target({{-0.5, -0.2, 0.15}, {0.3, 0.3, 0.3}});
+    Correspondence wanted;
+    wanted.loops = {{0, 0}, {1, 1}, {2, 2}};
+    const ExtremalMap plain = extremal_map(source, {target, wanted});
+    ExtremalOptions options;
+    options.start = plain.map;
+    for (int v = 0; v < source.mesh.vertex_count(); ++v)
+        if (!source.topology.on_boundary[v]) (*options.start)[v] = std::polar(0.9, 7.0 * v * v);
+    options.max_iterations = 2;
+    const ExtremalMap stopped = extremal_map(source, {target, wanted}, options);
+    const auto about_start = [](const Warning& warning) { return warning.kind == WarningKind::start; };
+    EXPECT_EQ(std::count_if(stopped.warnings.begin(), stopped.warnings.end(), about_start), 1);
+    options.start = plain.map;
+    options.max_iterations = 60;
+    const ExtremalMap settled = extremal_map(source, {target, wanted}, options);
+    EXPECT_EQ(std::count_if(settled.warnings.begin(), settled.warnings.end(), about_start), 0);
+    EXPECT_NEAR(settled.k, plain.k, 1e-5);
+    EXPECT_LE(settled.iterations, plain.iterations);
 }
 
 TEST(SlidingInvariance, TurningScalingAndRenumberingChangeNothing) {

@@ -45,7 +45,7 @@ inline void expect_sliding_sound(const ExtremalMap& result) {
     }
     EXPECT_LE(result.K_lower, result.K * (1 + 1e-12));
     EXPECT_LE(result.K, result.K_max);
-    for (const std::string& warning : result.warnings) ADD_FAILURE() << warning;
+    for (const Warning& warning : result.warnings) ADD_FAILURE() << warning.sentence;
 }
 
 }  // namespace beltrami::test

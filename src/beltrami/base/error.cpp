@@ -4,9 +4,9 @@
 
 namespace beltrami {
 
-Error::Error(Cause cause, const std::string& sentence, const std::string& next_step, std::vector<int> indices)
+Error::Error(Cause cause, const std::string& sentence, const std::string& next_step, Where where)
     : std::runtime_error(next_step.empty() ? sentence : sentence + ": " + next_step),
       cause_(cause),
-      indices_(std::move(indices)) {}
+      where_(std::move(where)) {}
 
 }  // namespace beltrami

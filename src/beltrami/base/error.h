@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include <beltrami/base/where.h>
+
 namespace beltrami {
 
 /// Why something could not be done. The command's exit code is a function of the cause alone.
@@ -17,21 +19,22 @@ enum class Cause {
     cancelled,     ///< the caller asked to stop
 };
 
-/// Every failure of the library: a cause, a sentence, the offending indices and what to do next.
+/// Every failure of the library: a cause, a sentence, where it is and what to do next.
 /// what() is "<sentence>: <next step>".
 class Error : public std::runtime_error {
   public:
     /// @param sentence  what is wrong and where, in plain words, without a final full stop
     /// @param next_step what the user can do about it; may be empty
-    /// @param indices   offending vertices, faces or lines, counted from 0; may be empty
-    Error(Cause cause, const std::string& sentence, const std::string& next_step = {}, std::vector<int> indices = {});
+    /// @param where     offending vertices, faces, lines ...; may be nothing
+    Error(Cause cause, const std::string& sentence, const std::string& next_step = {}, Where where = {});
 
     Cause cause() const { return cause_; }
-    const std::vector<int>& indices() const { return indices_; }
+    const Where& where() const { return where_; }
+    const std::vector<int>& indices() const { return where_.indices; }
 
   private:
     Cause cause_;
-    std::vector<int> indices_;
+    Where where_;
 };
 
 }  // namespace beltrami

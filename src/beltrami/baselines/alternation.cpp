@@ -150,9 +150,7 @@ BaselineMap alternation_baseline(const Surface& source, const BoundaryCondition&
         energy_before = now;
     }
     result.factorizations = solver.factorization_count() + forms.factorization_count();
-    if (!result.converged)
-        result.warnings.push_back("stopped after " + std::to_string(result.iterations) +
-                                  " iterations before the energy settled");
+    detail::warn_of_limit("iterations before the energy settled", result);
     detail::warn_of_flips(source, result);
     return result;
 }

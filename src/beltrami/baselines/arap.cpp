@@ -76,9 +76,7 @@ BaselineMap arap_baseline(const Surface& source, const BoundaryCondition& bounda
             break;
         }
     }
-    if (!result.converged)
-        result.warnings.push_back("stopped after " + std::to_string(result.iterations) +
-                                  " iterations before the energy settled");
+    detail::warn_of_limit("iterations before the energy settled", result);
     detail::warn_of_flips(source, result);
     return result;
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <beltrami/base/warning.h>
 #include <beltrami/constraints/boundary_condition.h>
 
 namespace beltrami {
@@ -31,7 +32,7 @@ struct BaselineMap {
     int iterations = 0;      ///< 0 for a linear map
     int factorizations = 0;  ///< of #V×#V systems and larger
     bool converged = false;
-    std::vector<std::string> warnings;
+    Warnings warnings;
 };
 
 /// The harmonic map (Pinkall & Polthier 1993): cotangent weights on triangles.

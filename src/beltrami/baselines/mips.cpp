@@ -41,9 +41,10 @@ BaselineMap mips_baseline(const Surface& source, const BoundaryCondition& bounda
         std::optional<Eigen::VectorXcd> convex = convex_start(source, boundary, result.factorizations);
         if (convex && detail::has_no_folds(source, *convex)) {
             result.map = std::move(*convex);
-            result.warnings.push_back("the linear start has folds; started from Tutte's map instead");
+            result.warnings.push_back(
+                {WarningKind::start, "the linear start has folds; started from Tutte's map instead"});
         } else {
-            result.warnings.push_back("the linear start has folds and was untangled");
+            result.warnings.push_back({WarningKind::start, "the linear start has folds and was untangled"});
         }
     }
     FoldFreeOptions descent;
@@ -59,10 +60,10 @@ BaselineMap mips_baseline(const Surface& source, const BoundaryCondition& bounda
     result.converged = minimum.fold_free && minimum.status == FoldFreeStatus::converged;
     if (!minimum.fold_free)
         result.warnings.push_back(
-            "folds remain: the prescribed vertices admit no map without folds, or none was found");
-    else if (!result.converged)
-        result.warnings.push_back("stopped after " + std::to_string(result.iterations) +
-                                  " steps before the gradient vanished");
+            {WarningKind::fold_forced,
+             "folds remain: the prescribed vertices admit no map without folds, or none was found"});
+    else
+        detail::warn_of_limit("steps before the gradient vanished", result);
     detail::warn_of_flips(source, result);
     return result;
 }

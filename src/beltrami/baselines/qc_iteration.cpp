@@ -71,9 +71,7 @@ BaselineMap qc_iteration_baseline(const Surface& source, const BoundaryCondition
         result.converged = next_coefficient() <= options.tolerance;
     }
     result.factorizations = solver.factorization_count();
-    if (!result.converged)
-        result.warnings.push_back("stopped after " + std::to_string(result.iterations) +
-                                  " iterations before the coefficient settled");
+    detail::warn_of_limit("iterations before the coefficient settled", result);
     detail::warn_of_flips(source, result);
     return result;
 }

@@ -26,7 +26,8 @@ void check_baseline(const Surface& source, const BoundaryCondition& boundary, co
         throw Error(Cause::bad_boundary,
                     "vertex " + std::to_string(boundary.lines[0].vertex) +
                         " may slide on a line, which this method does not do",
-                    "only the extremal map does; prescribe both coordinates", {boundary.lines[0].vertex});
+                    "only the extremal map does; prescribe both coordinates",
+                    {Things::vertices, {boundary.lines[0].vertex}});
 }
 
 double enclosed_area(const Surface& source, const BoundaryCondition& boundary) {
@@ -45,8 +46,9 @@ bool must_fold(const Surface& source, const BoundaryCondition& boundary, Baselin
     if (!unprescribed_boundary(boundary, source).empty() || enclosed_area(source, boundary) > 0) return false;
     result.converged = false;
     result.warnings.push_back(
-        "the prescribed boundary encloses no positive area, so every map with it folds; a boundary listed clockwise "
-        "must be reversed");
+        {WarningKind::fold_forced,
+         "the prescribed boundary encloses no positive area, so every map with it folds; a boundary listed clockwise "
+         "must be reversed"});
     return true;
 }
 
@@ -82,9 +84,18 @@ bool has_no_folds(const Surface& source, const Eigen::VectorXcd& map) {
 }
 
 void warn_of_flips(const Surface& source, BaselineMap& result) {
-    const std::size_t flipped = distortion(source.operators, result.map).flipped.size();
-    if (flipped)
-        result.warnings.push_back(std::to_string(flipped) + (flipped == 1 ? " face is" : " faces are") + " flipped");
+    std::vector<int> flipped = distortion(source.operators, result.map).flipped;
+    if (!flipped.empty())
+        result.warnings.push_back(
+            {WarningKind::flipped_faces,
+             std::to_string(flipped.size()) + (flipped.size() == 1 ? " face is" : " faces are") + " flipped",
+             {Things::faces, std::move(flipped)}});
+}
+
+void warn_of_limit(const char* unsettled, BaselineMap& result) {
+    if (!result.converged)
+        result.warnings.push_back(
+            {WarningKind::iteration_limit, "stopped after " + std::to_string(result.iterations) + " " + unsettled});
 }
 
 }  // namespace detail
@@ -113,7 +124,8 @@ BaselineMap convex_combination_baseline(const Surface& source, const BoundaryCon
     result.converged = true;
     if (!detail::must_fold(source, boundary, result) && !has_convex_target(source, boundary))
         result.warnings.push_back(
-            "the target is not a convex polygon with nothing else prescribed, so that folds are not excluded");
+            {WarningKind::fold_forced,
+             "the target is not a convex polygon with nothing else prescribed, so that folds are not excluded"});
     detail::warn_of_flips(source, result);
     return result;
 }

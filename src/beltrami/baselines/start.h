@@ -28,5 +28,8 @@ bool has_no_folds(const Surface& source, const Eigen::VectorXcd& map);
 
 /// Warns of flipped faces.
 void warn_of_flips(const Surface& source, BaselineMap& result);
+/// After a limit, a warning: "stopped after 7 iterations before the energy settled".
+/// @param unsettled "iterations before the energy settled"
+void warn_of_limit(const char* unsettled, BaselineMap& result);
 
 }  // namespace beltrami::detail

@@ -160,7 +160,7 @@ TMapSchemeResult t_map_scheme(const Surface& source, const SlidingStart& start, 
     try {
         require_not_collapsed(result.loops);
     } catch (const Error& error) {
-        result.warnings.push_back(error.what());
+        result.warnings.push_back({WarningKind::collapsed_loop, error.what(), error.where()});
     }
     warn_of_folds_and_limit(std::to_string(result.solves) + " solves before the coefficient settled", result);
     return result;

@@ -13,6 +13,53 @@
 
 namespace beltrami {
 
+bool Bound::proves_from_below() const {
+    return rigorous && of == Of::extremal && kind != Kind::attained && kind != Kind::verified &&
+           kind != Kind::moduli_upper;
+}
+
+const char* to_string(Bound::Kind kind) {
+    switch (kind) {
+        case Bound::Kind::reich_strebel:
+            return "reich_strebel";
+        case Bound::Kind::reich_strebel_estimate:
+            return "reich_strebel_estimate";
+        case Bound::Kind::reich_strebel_upper:
+            return "reich_strebel_upper";
+        case Bound::Kind::averaged_estimate:
+            return "averaged_estimate";
+        case Bound::Kind::corner:
+            return "corner";
+        case Bound::Kind::edge_corner:
+            return "edge_corner";
+        case Bound::Kind::moduli:
+            return "moduli";
+        case Bound::Kind::moduli_upper:
+            return "moduli_upper";
+        case Bound::Kind::pair:
+            return "pair";
+        case Bound::Kind::verified:
+            return "verified";
+        case Bound::Kind::mesh_harmonic:
+            return "mesh_harmonic";
+        case Bound::Kind::attained:
+            return "attained";
+    }
+    return "unknown";
+}
+
+const char* to_string(Bound::Of of) {
+    switch (of) {
+        case Bound::Of::extremal:
+            return "K*";
+        case Bound::Of::mesh:
+            return "mesh";
+        case Bound::Of::polygons:
+            return "polygons";
+    }
+    return "unknown";
+}
+
 namespace {
 
 /// A smaller part of ∫|φ| that the quadrature leaves unresolved does not count.

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include <beltrami/differentials/quadratic_differential.h>
 #include <beltrami/operators/map_derivatives.h>
 
@@ -9,6 +7,20 @@ namespace beltrami {
 
 /// A statement about a dilatation K.
 struct Bound {
+    enum class Kind {
+        reich_strebel,           ///< 1/I⁻ of a map and a φ
+        reich_strebel_estimate,  ///< √(I⁺/I⁻)
+        reich_strebel_upper,     ///< I⁺, where boundaries slide
+        averaged_estimate,       ///< of the coefficient averaged over vertex stars
+        corner,                  ///< of smooth data with this corner
+        edge_corner,             ///< edge_corner_bound.h
+        moduli,                  ///< modulus.h
+        moduli_upper,            ///< of a crowded annulus, from above
+        pair,                    ///< pair_bound.h
+        verified,                ///< an upper bound by a map that was verified
+        mesh_harmonic,           ///< mesh_harmonic_bound()
+        attained,                ///< the largest K of a face
+    };
     enum class Of {
         extremal,  ///< K*, the dilatation of the extremal map
         mesh,      ///< every piecewise linear map of this mesh
@@ -16,12 +28,16 @@ struct Bound {
         /// values that they are sampled from may be smaller.
         polygons,
     };
-    std::string kind;  ///< "reich_strebel", "reich_strebel_estimate", "averaged_estimate", "corner", "edge_corner",
-                       ///< "moduli", "pair", "verified", "mesh_harmonic", "attained"
+    Kind kind;
     double K;
     Of of;
     bool rigorous;  ///< a proof up to floating point and quadrature; else an estimate
+
+    /// Whether it proves K* ≥ K.
+    bool proves_from_below() const;
 };
+const char* to_string(Bound::Kind kind);  ///< its name in records
+const char* to_string(Bound::Of of);
 
 /// Integrals of a map's coefficient μ against a holomorphic φ, and what follows from them:
 /// I∓ = ∫|φ| |1 ∓ μφ/|φ||²/(1−|μ|²) / ∫|φ|  (Reich & Strebel).

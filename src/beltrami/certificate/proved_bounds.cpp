@@ -18,7 +18,7 @@ namespace {
 /// Loops of fewer vertices are taken for what they are.
 constexpr std::size_t kSampled = 24;
 
-void take(ProvedBounds& result, const char* kind, double K, Bound::Of of = Bound::Of::extremal) {
+void take(ProvedBounds& result, Bound::Kind kind, double K, Bound::Of of = Bound::Of::extremal) {
     if (K > 1) result.bounds.push_back({kind, K, of, true});
 }
 
@@ -79,7 +79,7 @@ double best_pair(const Surface& source, const BoundaryCondition& boundary, const
 double ProvedBounds::K() const {
     double K = 1;
     for (const Bound& bound : bounds)
-        if (bound.of == Bound::Of::extremal && bound.kind != "attained") K = std::max(K, bound.K);
+        if (bound.of == Bound::Of::extremal && bound.kind != Bound::Kind::attained) K = std::max(K, bound.K);
     return K;
 }
 
@@ -88,7 +88,7 @@ ProvedBounds proved_bounds(const Surface& source, const BoundaryCondition& bound
     ProvedBounds result;
     const EdgeCornerBound corner = edge_corner_bound(source, map);
     const bool sampled = !options.exact_polygons && is_sampled(source, corner.vertex);
-    take(result, "edge_corner", corner.K, sampled ? Bound::Of::polygons : Bound::Of::extremal);
+    take(result, Bound::Kind::edge_corner, corner.K, sampled ? Bound::Of::polygons : Bound::Of::extremal);
     result.corner_vertex = corner.vertex;
     const bool quads = !all_triangles(source.mesh);
     std::optional<Surface> cut;
@@ -98,8 +98,8 @@ ProvedBounds proved_bounds(const Surface& source, const BoundaryCondition& bound
     const Surface& surface = cut ? *cut : source;
     if (source.mesh.face_count() > options.most_faces_for_pairs) return result;
     try {
-        take(result, "moduli", moduli_bound(surface, map, result.factorizations));
-        take(result, "pair", best_pair(surface, boundary, map, options.pair, result.factorizations));
+        take(result, Bound::Kind::moduli, moduli_bound(surface, map, result.factorizations));
+        take(result, Bound::Kind::pair, best_pair(surface, boundary, map, options.pair, result.factorizations));
     } catch (const Error& error) {
         if (error.cause() != Cause::not_solved) throw;  // shapes beyond floating point prove nothing
     }
@@ -117,7 +117,7 @@ ProvedBounds bounds_of_map(const Surface& source, const Eigen::VectorXcd& map) {
     ProvedBounds result = proved_bounds(source, boundary, map, options);
     const Distortion measured = distortion(source.operators, map);
     if (measured.flipped.empty() && measured.degenerate.empty())
-        result.bounds.push_back({"attained", measured.max_dilatation(), Bound::Of::extremal, true});
+        result.bounds.push_back({Bound::Kind::attained, measured.max_dilatation(), Bound::Of::extremal, true});
     return result;
 }
 

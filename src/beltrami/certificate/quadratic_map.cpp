@@ -83,7 +83,7 @@ void require_triangles(const Surface& source) {
     for (int f = 0; f < source.mesh.face_count(); ++f)
         if (source.mesh.faces.degree(f) != 3)
             throw Error(Cause::bad_mesh, "face " + std::to_string(f) + " is not a triangle",
-                        "piecewise quadratic maps need triangles", {f});
+                        "piecewise quadratic maps need triangles", {Things::faces, {f}});
 }
 
 }  // namespace

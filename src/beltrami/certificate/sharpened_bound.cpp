@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <beltrami/certificate/refined_problem.h>
+#include <beltrami/operators/distortion.h>
 
 namespace beltrami {
 
@@ -65,8 +66,8 @@ SharpenedBound sharpened_bound(const Surface& source, const BoundaryCondition& b
         result.map = std::move(map);
         const bool rigorous = integrals.resolved && proves(surface, own);
         if (integrals.lower > result.lower) result.lower = integrals.lower, result.rigorous = rigorous;
-        const double last = (1 + k) / (1 - k);
-        k = std::min((integrals.estimate - 1) / (integrals.estimate + 1), kLargest);
+        const double last = dilatation(k);
+        k = std::min(k_of(integrals.estimate), kLargest);
         if (std::abs(integrals.estimate - last) < kOtherK * last) break;
     }
     result.factorizations = step.factorizations();

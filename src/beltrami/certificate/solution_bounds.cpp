@@ -47,8 +47,7 @@ bool jumps_are_exact(const Solution& s) {
 
 SolutionBounds solution_bounds(const Solution& s, std::optional<int> subdivisions) {
     SolutionBounds result;
-    const double K_max =
-        s.distortion.flipped.empty() ? dilatation(s.distortion.max) : std::numeric_limits<double>::infinity();
+    const double K_max = s.distortion.K_max();
     const ReichStrebel& own = s.integrals;
     const bool large = s.k >= kLargeCoefficient;
     const bool wide = own.valid && own.estimate > (1 + kWideGap) * own.lower &&
@@ -72,7 +71,7 @@ SolutionBounds solution_bounds(const Solution& s, std::optional<int> subdivision
     }
     if (sharp.integrals.valid) same = same_class(s, sharp.map);
     const bool sharpened = sharp.integrals.valid && same.same;
-    double lower = 1, estimate = (1 + s.k) / (1 - s.k);
+    double lower = 1, estimate = dilatation(s.k);
     bool rigorous = false;
     if (own.valid) {
         lower = std::max(lower, own.lower);
@@ -88,19 +87,19 @@ SolutionBounds solution_bounds(const Solution& s, std::optional<int> subdivision
         }
     }
     if (own.valid || sharpened) {
-        result.bounds.push_back({"reich_strebel", lower, Bound::Of::extremal, rigorous});
-        result.bounds.push_back({"reich_strebel_estimate", estimate, Bound::Of::extremal, false});
+        result.bounds.push_back({Bound::Kind::reich_strebel, lower, Bound::Of::extremal, rigorous});
+        result.bounds.push_back({Bound::Kind::reich_strebel_estimate, estimate, Bound::Of::extremal, false});
     }
     if (large) {
         const ReichStrebel averaged = averaged_estimate(s.source, s.chart, s.phi, s.map);
         if (averaged.valid) {
-            result.bounds.push_back({"averaged_estimate", averaged.lower, Bound::Of::extremal, false});
+            result.bounds.push_back({Bound::Kind::averaged_estimate, averaged.lower, Bound::Of::extremal, false});
             if (!sharpened && !(s.space.tabulated() && own.valid)) estimate = averaged.lower;
         }
     }
     result.K_lower = lower;
     result.K = std::max(std::min(estimate, K_max), lower);
-    result.k = (result.K - 1) / (result.K + 1);
+    result.k = k_of(result.K);
     return result;
 }
 

@@ -24,10 +24,6 @@ constexpr double kRefined = 0.3;
 /// Rounding of the bounds.
 constexpr double kRounding = 1e-12;
 
-double coefficient(double K) {
-    return (K - 1) / (K + 1);
-}
-
 struct Level {
     Surface surface;
     BoundaryCondition boundary;
@@ -121,8 +117,8 @@ class Bracketing {
     void improve(const QuadraticSpace& space) {
         OneSidedDescent descent(level_.surface, space, held());
         OneSidedDescent::Options options;
-        options.least = coefficient(result_K_lower_);
-        options.wanted = coefficient((1 + options_.gap) * result_K_lower_);
+        options.least = k_of(result_K_lower_);
+        options.wanted = k_of((1 + options_.gap) * result_K_lower_);
         const double k = descent.run(map_, options);
         factorizations_ += descent.factorizations();
         K_upper_ = k < 1 ? dilatation(k) * (1 + kRounding) : std::numeric_limits<double>::infinity();
@@ -185,7 +181,7 @@ class Bracketing {
 
     void refine(const QuadraticSpace& space) {
         const std::vector<double> bounds = space.bounds(map_);
-        const double wanted = coefficient((1 + options_.gap) * result_K_lower_);
+        const double wanted = k_of((1 + options_.gap) * result_K_lower_);
         const double largest = std::min(1.0, *std::max_element(bounds.begin(), bounds.end()));
         const double limit = std::max(wanted, largest - (1 - kRefined) * (largest - wanted));
         const FaceList& faces = level_.surface.mesh.faces;

@@ -49,7 +49,7 @@ struct Positioned {
         if (vertex < 0 || vertex >= static_cast<int>(loop.size()) || loop[vertex] < 0)
             throw Error(Cause::bad_boundary,
                         "vertex " + std::to_string(vertex) + " of a pair is not on the boundary of the " + of,
-                        "pair boundary vertices, counted from 0", {vertex});
+                        "pair boundary vertices, counted from 0", {Things::vertices, {vertex}});
     }
 };
 
@@ -67,7 +67,7 @@ void require_one_partner(std::span<const std::array<int, 2>> pairs, int side, co
     if (twice != vertices.end())
         throw Error(Cause::bad_boundary,
                     "vertex " + std::to_string(*twice) + " of the " + of + " is in two of the pairs",
-                    "give every vertex one partner", {*twice});
+                    "give every vertex one partner", {Things::vertices, {*twice}});
 }
 
 /// Pairs by the loops of the source, in its order, and the loops' partners.
@@ -85,19 +85,19 @@ std::vector<std::vector<Pair>> by_loops(const Surface& source, const Surface& ta
             throw Error(Cause::bad_boundary,
                         "pairs send boundary loop " + std::to_string(loop) + " of the source to the loops " +
                             std::to_string(partner[loop]) + " and " + std::to_string(other) + " of the target",
-                        "send a loop to one loop", {pair[0], pair[1]});
+                        "send a loop to one loop", {Things::vertices, {pair[0], pair[1]}});
         partner[loop] = other;
         result[loop].push_back({from.position[pair[0]], to.position[pair[1]], pair});
     }
     for (int l = 0; l < loops; ++l) {
         if (result[l].empty())
             throw Error(Cause::bad_boundary, "no pair says where boundary loop " + std::to_string(l) + " goes",
-                        "give at least one pair for every loop", {l});
+                        "give at least one pair for every loop", {Things::loops, {l}});
         if (std::count(partner.begin(), partner.end(), partner[l]) > 1)
             throw Error(
                 Cause::bad_boundary,
                 "pairs send two boundary loops of the source to loop " + std::to_string(partner[l]) + " of the target",
-                "send every loop to one of its own", {l});
+                "send every loop to one of its own", {Things::loops, {l}});
         std::sort(result[l].begin(), result[l].end(), [](const Pair& a, const Pair& b) { return a.from < b.from; });
     }
     return result;
@@ -119,7 +119,7 @@ std::vector<BoundaryPlace> places_of(const Surface& source, const Surface& targe
                             " follow each other in another order on the target, up to the pair " +
                             std::to_string(end.vertices[0]) + " " + std::to_string(end.vertices[1]),
                         "a one-to-one map keeps the order, the surface on the left on both sides",
-                        {end.vertices[0], end.vertices[1]});
+                        {Things::vertices, {end.vertices[0], end.vertices[1]}});
         int i = begin.from;
         do {
             const double part = i == begin.from ? 0 : from.ahead(begin.from, i) / length;

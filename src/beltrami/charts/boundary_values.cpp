@@ -7,7 +7,9 @@
 
 #include <beltrami/base/error.h>
 #include <beltrami/charts/domain_chart.h>
+#include <beltrami/charts/shape.h>
 #include <beltrami/meshing/planar_domains.h>
+#include <beltrami/plane/increasing.h>
 #include <beltrami/plane/polygon.h>
 #include <beltrami/solve/beltrami_solver.h>
 
@@ -44,7 +46,7 @@ Loop loop_from(const Surface& source, int index, std::optional<int> start) {
             throw Error(
                 Cause::bad_boundary,
                 "the start vertex " + std::to_string(*start) + " is not on boundary loop " + std::to_string(index),
-                "name a vertex of that loop, counted from 0", {*start});
+                "name a vertex of that loop, counted from 0", {Things::vertices, {*start}});
         std::rotate(lengths.begin(), lengths.begin() + (at - loop.vertices.begin()), lengths.end());
         std::rotate(loop.vertices.begin(), at, loop.vertices.end());
     }
@@ -52,52 +54,11 @@ Loop loop_from(const Surface& source, int index, std::optional<int> start) {
     return loop;
 }
 
-/// Makes the nearly increasing values of a closed loop increasing: where they run backwards they are pooled (isotonic
-/// regression), and a pool is spread evenly by arc length between the middles of the gaps on both sides. Pools reach
-/// across the start.
-/// @param values rise by @p period around the loop
-/// @param arc    one more than values: the last is the total
-void make_increasing(std::vector<double>& values, double period, const std::vector<double>& arc) {
-    struct Pool {
-        double sum;
-        std::size_t first, count;
-        double mean() const { return sum / static_cast<double>(count); }
-    };
-    // Three times around: what the second turn gets does not depend on where the loop starts.
-    const std::size_t n = values.size();
-    const double total = arc.back();
-    const auto turn = [&](std::size_t i) {
-        const std::size_t round = i / n;
-        return static_cast<double>(round) - 1;
-    };
-    const auto value = [&](std::size_t i) { return values[i % n] + turn(i) * period; };
-    const auto place = [&](std::size_t i) { return arc[i % n] + turn(i) * total; };
-    std::vector<Pool> pools;
-    for (std::size_t i = 0; i < 3 * n; ++i) {
-        pools.push_back({value(i), i, 1});
-        while (pools.size() > 1 && pools[pools.size() - 2].mean() >= pools.back().mean()) {
-            const Pool last = pools.back();
-            pools.pop_back();
-            pools.back().sum += last.sum;
-            pools.back().count += last.count;
-        }
-    }
-    std::vector<double> result = values;
-    for (std::size_t p = 1; p + 1 < pools.size(); ++p) {
-        const std::size_t first = pools[p].first, last = first + pools[p].count - 1;
-        if (first == last || last < n || first >= 2 * n) continue;
-        const double low = 0.5 * (pools[p - 1].mean() + pools[p].mean()),
-                     high = 0.5 * (pools[p].mean() + pools[p + 1].mean());
-        for (std::size_t i = std::max(first, n); i <= std::min(last, 2 * n - 1); ++i)
-            result[i - n] = low + (high - low) * (place(i) - place(first) + 1e-3 * total) /
-                                      (place(last) - place(first) + 2e-3 * total);
-    }
-    values = std::move(result);
-}
-
 /// Angles of the loop's vertices on the unit circle of the canonical domain, 0 at the start and increasing.
-std::vector<double> conformal_angles(const Surface& source, const Loop& loop) {
-    const Chart chart = domain_chart(source, loop.index);
+std::vector<double> conformal_angles(const Surface& source, const Loop& loop, const Shape* shape = nullptr) {
+    std::optional<Chart> own;
+    if (!shape) own = domain_chart(source, loop.index);
+    const Chart& chart = shape ? shape->chart(loop.index) : *own;
     std::vector<double> angle{0.0};
     for (std::size_t i = 1; i < loop.size(); ++i)
         angle.push_back(angle.back() +
@@ -169,7 +130,7 @@ BoundaryCondition boundary_to_disk(const Surface& source, double amplitude, cons
     const Loop loop = loop_from(source, placement.loop, placement.start);
     std::vector<double> angle;
     if (placement.speed == BoundarySpeed::conformal) {
-        angle = conformal_angles(source, loop);
+        angle = conformal_angles(source, loop, placement.shape);
     } else {
         for (std::size_t i = 0; i < loop.size(); ++i) angle.push_back(kTwoPi * loop.arc[i] / loop.total());
     }
@@ -197,14 +158,15 @@ BoundaryCondition boundary_to_rectangle(const Surface& source, double width, dou
                 throw Error(Cause::bad_boundary,
                             "the corner " + std::to_string(corner) + " is not on boundary loop " +
                                 std::to_string(placement.loop),
-                            "name four vertices of that loop, counted from 0", {corner});
+                            "name four vertices of that loop, counted from 0", {Things::vertices, {corner}});
             at.push_back(static_cast<std::size_t>(found - loop.vertices.begin()));
         }
         for (std::size_t c = 1; c < 4; ++c)
             if (at[c] <= at[c - 1])
                 throw Error(Cause::bad_boundary,
                             "the corners are not four different vertices in counter-clockwise order",
-                            "counter-clockwise is with the surface on the left", {corners->begin(), corners->end()});
+                            "counter-clockwise is with the surface on the left",
+                            {Things::vertices, {corners->begin(), corners->end()}});
     } else {
         const double perimeter = 2 * (width + height);
         std::vector<double> parameter(loop.arc.begin(), loop.arc.end() - 1);
@@ -260,7 +222,7 @@ BoundaryCondition boundary_to_polygon(const Surface& source, const std::vector<C
             points.emplace_back(target.mesh.positions(v, 0), target.mesh.positions(v, 1));
         along = conformal_angles(target, around);
         along.push_back(kTwoPi);
-        parameter = conformal_angles(source, loop);
+        parameter = conformal_angles(source, loop, placement.shape);
         for (double& a : along) a /= kTwoPi;
         for (double& t : parameter) t /= kTwoPi;
     }

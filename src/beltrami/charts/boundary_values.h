@@ -13,13 +13,16 @@ enum class BoundarySpeed {
     conformal,  ///< as the conformal map does: gentle at corners, where arc length forces a large dilatation
 };
 
+class Shape;
+
 /// Which boundary loop is prescribed, run through with the faces on the left (counter-clockwise in the image), and how.
 struct BoundaryPlacement {
     std::optional<int> start;  ///< the boundary vertex that goes to angle 0, the first corner or the first point;
                                ///< default: the smallest
     /// Conformal: of the round disk, or, where there are further loops, of the disk with holes (domain_chart.h).
     BoundarySpeed speed = BoundarySpeed::arclength;
-    int loop = 0;  ///< of topology.boundary_loops: the one whose image is to enclose the others
+    int loop = 0;                  ///< of topology.boundary_loops: the one whose image is to enclose the others
+    const Shape* shape = nullptr;  ///< the source with its charts, of which the conformal speed then takes one
 };
 
 /// The unit circle: the point at t = 2π · arc length / total (or conformal angle) goes to e^{i(t + amplitude sin t)}.

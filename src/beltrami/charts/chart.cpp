@@ -67,20 +67,22 @@ Chart make_chart(const Surface& source, Eigen::VectorXcd vertices, bool exact) {
     chart.positions = at_samples(operators, chart.vertices);
     chart.derivatives.resize(operators.sample_count());
     chart.excluded.assign(operators.sample_count(), 0);
-    int last_face = -1;
+    std::vector<int> excluded;
     for (int s = 0; s < operators.sample_count(); ++s) {
         const auto [dz, dzbar] = operators.derivatives(s, chart.vertices);
         chart.derivatives[s] = dz;
         if (!(std::abs(dzbar) < kMostDistorted * std::abs(dz))) {
             chart.excluded[s] = 1;
-            if (operators.faces[s] != last_face) ++chart.excluded_faces;
-            last_face = operators.faces[s];
+            if (excluded.empty() || operators.faces[s] != excluded.back()) excluded.push_back(operators.faces[s]);
         }
     }
+    chart.excluded_faces = static_cast<int>(excluded.size());
     if (chart.excluded_faces)
-        chart.warnings.push_back("the conformal chart is far from conformal at " +
-                                 std::to_string(chart.excluded_faces) +
-                                 " faces; they are left out when the quadratic differential is determined");
+        chart.warnings.push_back({WarningKind::chart,
+                                  "the conformal chart is far from conformal at " +
+                                      std::to_string(chart.excluded_faces) +
+                                      " faces; they are left out when the quadratic differential is determined",
+                                  {Things::faces, std::move(excluded)}});
     return chart;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <beltrami/base/warning.h>
 #include <beltrami/operators/surface.h>
 
 namespace beltrami {
@@ -33,7 +34,7 @@ struct Chart {
     int outer_loop = 0;       ///< the boundary loop that goes to the unit circle
     std::vector<Hole> holes;  ///< one for every other loop, in their order
     int factorizations = 0;
-    std::vector<std::string> warnings;
+    Warnings warnings;
 };
 
 /// The chart whose vertex positions are @p vertices: derivatives, positions at the samples, excluded samples.

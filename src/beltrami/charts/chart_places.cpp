@@ -48,7 +48,7 @@ std::vector<MeshPoint> locate_in_chart(const Surface& surface, const Eigen::Vect
         throw Error(
             Cause::bad_boundary,
             std::to_string(far.size()) + " points lie outside the chart, the first is point " + std::to_string(far[0]),
-            "only points of the circle domain have a place on the surface", far);
+            "only points of the circle domain have a place on the surface", {Things::points, far});
     return places;
 }
 

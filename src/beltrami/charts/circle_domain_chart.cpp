@@ -5,6 +5,7 @@
 #include <sstream>
 #include <string>
 
+#include <beltrami/base/effort.h>
 #include <beltrami/base/error.h>
 #include <beltrami/charts/circle_slide.h>
 #include <beltrami/charts/hole_centre.h>
@@ -132,8 +133,8 @@ void measure(const Surface& source, CircleDomainChart& result) {
 
 /// Unfolds the inside of the rims where faces came out turned over, if it can be done.
 void unfold(const Surface& source, CircleDomainChart& result) {
-    const std::size_t folded = unforced(source, result).size();
-    if (folded == 0) return;
+    const std::vector<int> folded = unforced(source, result);
+    if (folded.empty()) return;
     const std::vector<Freedom> freedom = dirichlet_freedoms(source);
     FoldFreeOptions options;
     options.tolerance = 1e-3;
@@ -150,9 +151,11 @@ void unfold(const Surface& source, CircleDomainChart& result) {
         throw Error(Cause::not_solved,
                     std::to_string(faces.size()) + " faces stay turned over in the circle domain, the first is face " +
                         std::to_string(faces[0]),
-                    "refine the mesh near them", faces);
-    result.chart.warnings.push_back("the harmonic map turned " + std::to_string(folded) +
-                                    " faces over; they were unfolded, which costs conformality");
+                    "refine the mesh near them", {Things::faces, faces});
+    result.chart.warnings.push_back({WarningKind::chart,
+                                     "the harmonic map turned " + std::to_string(folded.size()) +
+                                         " faces over; they were unfolded, which costs conformality",
+                                     {Things::faces, folded}});
 }
 
 [[noreturn]] void too_close(const CircleDomainOptions& options) {
@@ -202,6 +205,7 @@ RoundHole CircleDomainChart::circle(int loop) const {
 
 CircleDomainChart circle_domain_chart(const Surface& source, int outer_loop, const CircleDomainOptions& options) {
     options.validate();
+    count(Work::circle_chart);
     CircleDomainChart result;
     DomainChartOptions start;
     start.round_from = start.rounding.wanted_ratio = kStartRatio;
@@ -216,9 +220,12 @@ CircleDomainChart circle_domain_chart(const Surface& source, int outer_loop, con
     measure(source, result);
     unfold(source, result);
     if (!result.pinched.empty())
-        result.chart.warnings.push_back(std::to_string(result.pinched.size()) +
-                                        " faces have an inner edge between two vertices of one hole, which no circle "
-                                        "domain has room for; split those edges");
+        result.chart.warnings.push_back(
+            {WarningKind::pinched_faces,
+             std::to_string(result.pinched.size()) +
+                 " faces have an inner edge between two vertices of one hole, which no circle "
+                 "domain has room for; split those edges",
+             {Things::faces, result.pinched}});
     result.factorizations = result.chart.factorizations;
     return result;
 }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include <beltrami/base/effort.h>
 #include <beltrami/base/error.h>
 #include <beltrami/base/parallel.h>
 #include <beltrami/charts/annulus_map.h>
@@ -253,6 +254,7 @@ void add_holes(const Surface& source, Chart& chart) {
 Chart domain_chart(const Surface& source, int outer_loop, const BeltramiSolver* dirichlet,
                    const DomainChartOptions& options) {
     require_loops(source, outer_loop);
+    count(Work::domain_chart);
     const auto& loops = source.topology.boundary_loops;
     if (loops.size() == 1)
         return dirichlet ? round_disk_chart(source, *dirichlet, options.disk) : round_disk_chart(source, options.disk);

@@ -6,10 +6,10 @@ namespace beltrami {
 
 Shape::Shape(const Surface& surface) : surface_(surface) {}
 
-const Chart& Shape::chart(int outer) const {
+const Chart& Shape::chart(int outer, const BeltramiSolver* dirichlet) const {
     const std::scoped_lock lock(mutex_);
     if (const auto kept = charts_.find(outer); kept != charts_.end()) return kept->second;
-    return charts_.emplace(outer, domain_chart(surface_, outer)).first->second;
+    return charts_.emplace(outer, domain_chart(surface_, outer, dirichlet)).first->second;
 }
 
 const CircleDomainChart& Shape::circles(int outer) const {
@@ -30,6 +30,12 @@ const Shape& Shape::without_bridges() const {
         examined_ = true;
     }
     return split_ ? *split_ : *this;
+}
+
+const Shape* shape_of(const Surface& surface, const std::vector<const Shape*>& shapes) {
+    for (const Shape* shape : shapes)
+        if (&shape->surface() == &surface) return shape;
+    return nullptr;
 }
 
 }  // namespace beltrami

@@ -4,6 +4,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <vector>
 
 #include <beltrami/charts/circle_domain_chart.h>
 #include <beltrami/constraints/prescribed_split.h>
@@ -21,8 +22,8 @@ class Shape {
 
     const Surface& surface() const { return surface_; }
 
-    /// domain_chart(surface(), outer). @throw Error as it does
-    const Chart& chart(int outer = 0) const;
+    /// domain_chart(surface(), outer, dirichlet), or the chart that was kept. @throw Error as it does
+    const Chart& chart(int outer = 0, const BeltramiSolver* dirichlet = nullptr) const;
 
     /// circle_domain_chart(surface(), outer). @throw Error as it does
     const CircleDomainChart& circles(int outer = 0) const;
@@ -44,5 +45,8 @@ class Shape {
     mutable std::unique_ptr<const Surface> split_surface_;
     mutable std::unique_ptr<const Shape> split_;
 };
+
+/// That of some shapes whose surface this one is; null if there is none.
+const Shape* shape_of(const Surface& surface, const std::vector<const Shape*>& shapes);
 
 }  // namespace beltrami

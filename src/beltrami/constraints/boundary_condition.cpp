@@ -18,10 +18,10 @@ void validate(const BoundaryCondition& boundary, const Surface& source) {
             throw Error(Cause::bad_boundary,
                         "vertex " + std::to_string(v) + " is pinned, but the mesh has the vertices 0 to " +
                             std::to_string(n - 1),
-                        "vertices are counted from 0 in file order", {v});
+                        "vertices are counted from 0 in file order", {Things::vertices, {v}});
         if (seen[v])
             throw Error(Cause::bad_boundary, "vertex " + std::to_string(v) + " is pinned twice",
-                        "give one image per vertex", {v});
+                        "give one image per vertex", {Things::vertices, {v}});
         seen[v] = 1;
     };
     for (std::size_t i = 0; i < boundary.vertices.size(); ++i) {
@@ -29,16 +29,16 @@ void validate(const BoundaryCondition& boundary, const Surface& source) {
         see(v);
         if (!std::isfinite(boundary.images[i].real()) || !std::isfinite(boundary.images[i].imag()))
             throw Error(Cause::bad_boundary, "the image of vertex " + std::to_string(v) + " is not finite",
-                        "give two numbers", {v});
+                        "give two numbers", {Things::vertices, {v}});
     }
     for (const auto& [v, point, direction] : boundary.lines) {
         see(v);
         if (source.topology.on_boundary[v])
             throw Error(Cause::bad_boundary, "vertex " + std::to_string(v) + " lies on the boundary and may not slide",
-                        "give its image point", {v});
+                        "give its image point", {Things::vertices, {v}});
         if (!std::isfinite(std::abs(point)) || !std::isfinite(std::abs(direction)) || direction == 0.0)
             throw Error(Cause::bad_boundary, "the line of vertex " + std::to_string(v) + " is not a line",
-                        "give a finite point and a direction", {v});
+                        "give a finite point and a direction", {Things::vertices, {v}});
     }
 }
 
@@ -68,11 +68,9 @@ void require_whole_boundary(const BoundaryCondition& boundary, const Surface& so
                         std::to_string(loop.size()) + " vertices) has " + std::to_string(count) +
                         " without a prescribed image, the first is vertex " + std::to_string(first);
     }
-    throw Error(
-        Cause::bad_boundary, sentence,
-        "pin every boundary vertex (--boundary for the outer loop, --hole for holes), or let parts be free with "
-        "--minimize max",
-        missing);
+    throw Error(Cause::bad_boundary, sentence,
+                "prescribe every boundary vertex, or take the map of least maximum, for which parts may be free",
+                {Things::vertices, missing});
 }
 
 std::vector<Freedom> freedoms(const BoundaryCondition& boundary, const Surface& source) {

@@ -80,7 +80,7 @@ class Examination {
     [[noreturn]] static void coincide(int v, int w) {
         throw Error(Cause::bad_boundary,
                     "the boundary values coincide: vertices " + name(v) + " and " + name(w) + " have the same image",
-                    "give every vertex an image of its own", {v, w});
+                    "give every vertex an image of its own", {Things::vertices, {v, w}});
     }
 
     static std::string of_loop(int loop) { return "boundary loop " + std::to_string(loop); }
@@ -100,7 +100,7 @@ class Examination {
                 if (turn.real() < 0 && std::abs(turn.imag()) <= -kStraightBack * turn.real())
                     throw Error(Cause::bad_boundary,
                                 "the boundary values turn straight back at vertex " + name(b) + " of " + of_loop(l),
-                                "no one-to-one map has them; prescribe a simple curve", {a, b, c});
+                                "no one-to-one map has them; prescribe a simple curve", {Things::vertices, {a, b, c}});
             }
         }
     }
@@ -144,16 +144,17 @@ class Examination {
             throw Error(
                 Cause::bad_boundary,
                 "the interior pin at vertex " + name(second.from) + " lies on the image of the boundary " + edge(first),
-                "move it into the inside of the target", std::move(vertices));
+                "move it into the inside of the target", {Things::vertices, std::move(vertices)});
         if (first.loop == second.loop)
             throw Error(Cause::bad_boundary,
                         "the boundary values of " + of_loop(first.loop) +
                             " run backwards or cross themselves: " + edge(first) + " meets " + edge(second),
-                        "no one-to-one map has them; prescribe a simple curve", std::move(vertices));
+                        "no one-to-one map has them; prescribe a simple curve",
+                        {Things::vertices, std::move(vertices)});
         throw Error(Cause::bad_boundary,
                     "the images of " + of_loop(first.loop) + " and " + of_loop(second.loop) + " meet: " + edge(first) +
                         " and " + edge(second),
-                    "move them apart", std::move(vertices));
+                    "move them apart", {Things::vertices, std::move(vertices)});
     }
 
     void orientations() const {
@@ -171,7 +172,7 @@ class Examination {
                                       "left; a mirrored target, or another outer loop, may be meant"
                                     : "prescribe them clockwise, as the hole's boundary runs with the surface on its "
                                       "left; it may be meant as the outer loop",
-                        loops()[l]);
+                        {Things::vertices, loops()[l]});
         }
     }
 
@@ -204,12 +205,12 @@ class Examination {
             if (!whole_.empty() && piece.loop != outer_ && whole_[outer_] && !inside(outer_))
                 throw Error(Cause::bad_boundary,
                             what + " lies outside the image of " + of_loop(outer_) + ", the outer one",
-                            "move it inside, or name another outer loop", {piece.from});
+                            "move it inside, or name another outer loop", {Things::vertices, {piece.from}});
             for (std::size_t k = 0; k < crossed.size(); ++k)
                 if (crossed[k] != outer_ && inside(crossed[k]))
                     throw Error(Cause::bad_boundary,
                                 what + " lies inside the image of " + of_loop(crossed[k]) + ", a hole",
-                                "move one of them", {piece.from, loops()[crossed[k]][0]});
+                                "move one of them", {Things::vertices, {piece.from, loops()[crossed[k]][0]}});
         }
     }
 
@@ -229,7 +230,7 @@ class Examination {
             throw Error(Cause::bad_boundary,
                         "the line on which vertex " + name(line.vertex) + " is to lie misses the image of " +
                             of_loop(outer_) + ", the outer one",
-                        "give a line that crosses it", {line.vertex});
+                        "give a line that crosses it", {Things::vertices, {line.vertex}});
         }
     }
 
@@ -251,7 +252,8 @@ class Examination {
                                     " has no interior edge and its prescribed image folds at "
                                     "vertex " +
                                     name(v[(i + 1) % n]),
-                                "prescribe a convex image, counter-clockwise, or split the face", {v.begin(), v.end()});
+                                "prescribe a convex image, counter-clockwise, or split the face",
+                                {Things::vertices, {v.begin(), v.end()}});
         }
     }
 

@@ -22,14 +22,14 @@ void validate(const Constraints& constraints, const Surface& source) {
     for (const Mark& mark : wanted.marks) {
         if (constraints.domain() && std::holds_alternative<TargetVertex>(mark.to))
             throw Error(Cause::bad_option, "marks by vertices of the target are given for a target that has none",
-                        "give places on its curves instead", {mark.vertex});
+                        "give places on its curves instead", {Things::vertices, {mark.vertex}});
         if (constraints.surface() && std::holds_alternative<CurveParameter>(mark.to))
             throw Error(Cause::bad_option, "marks on curves are given for a target that is a surface",
-                        "give pairs of vertices instead", {mark.vertex});
+                        "give pairs of vertices instead", {Things::vertices, {mark.vertex}});
         if (mark.vertex < 0 || mark.vertex >= source.mesh.vertex_count() || !source.topology.on_boundary[mark.vertex])
             throw Error(Cause::bad_boundary,
                         "the marked vertex " + std::to_string(mark.vertex) + " is not on the boundary of the source",
-                        "mark boundary vertices only", {mark.vertex});
+                        "mark boundary vertices only", {Things::vertices, {mark.vertex}});
     }
 }
 

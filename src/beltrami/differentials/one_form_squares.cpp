@@ -36,7 +36,7 @@ std::array<std::vector<int>, 4> sides_of(const Surface& source, const std::array
         const auto found = std::find(loop.begin(), loop.end(), corners[i]);
         if (found == loop.end())
             throw Error(Cause::bad_boundary, "corner " + std::to_string(corners[i]) + " is no boundary vertex",
-                        "name four boundary vertices", {corners[i]});
+                        "name four boundary vertices", {Things::vertices, {corners[i]}});
         at[i] = static_cast<std::size_t>(found - loop.begin());
     }
     std::array<std::vector<int>, 4> sides;
@@ -49,7 +49,7 @@ std::array<std::vector<int>, 4> sides_of(const Surface& source, const std::array
     }
     if (length != loop.size())
         throw Error(Cause::bad_boundary, "the corners do not follow each other along the boundary",
-                    "name four different boundary vertices counter-clockwise", named);
+                    "name four different boundary vertices counter-clockwise", {Things::vertices, named});
     return sides;
 }
 

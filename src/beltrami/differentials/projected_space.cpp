@@ -64,7 +64,7 @@ class Projection {
         }
         if (!bad.empty())
             throw Error(Cause::bad_option, "there is no tangent at boundary vertex " + std::to_string(bad.front()),
-                        "neighbouring boundary vertices must not coincide in the chart", bad);
+                        "neighbouring boundary vertices must not coincide in the chart", {Things::vertices, bad});
         solver_->factorize(Eigen::VectorXcd::Zero(source.operators.sample_count()), directions);
         tangents_ = std::move(directions);
     }
@@ -155,7 +155,7 @@ void ProjectionOptions::validate(const Surface& source) const {
             bad.push_back(marked[i]);
     if (!bad.empty())
         throw Error(Cause::bad_option, "vertex " + std::to_string(bad.front()) + " cannot be marked",
-                    "name vertices of the mesh, each once", bad);
+                    "name vertices of the mesh, each once", {Things::vertices, bad});
     if (!(least_gap >= 1)) throw Error(Cause::bad_option, "the least gap is below 1", "give a factor above 1");
     if (tangents.size() && tangents.size() != source.operators.vertex_count)
         throw Error(Cause::bad_option,
@@ -234,7 +234,8 @@ ProjectedSpace projected_space(const Surface& source, const Chart& chart, const 
         throw Error(Cause::not_solved, "the quadratic differentials are not found: " + described(),
                     "a finer mesh, a smooth boundary or seeds that span the space are needed");
     if (result.gap < options.least_gap)
-        result.warnings.push_back("the space of quadratic differentials hardly stands apart: " + described());
+        result.warnings.push_back(
+            {WarningKind::differentials, "the space of quadratic differentials hardly stands apart: " + described()});
 
     const Eigen::VectorXd scales = values.head(dimension).cwiseSqrt().cwiseInverse();
     phi = complex_product(

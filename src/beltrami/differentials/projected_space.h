@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include <beltrami/base/warning.h>
 #include <beltrami/differentials/tabulated_space.h>
 #include <beltrami/solve/beltrami_solver.h>
 
@@ -26,7 +27,7 @@ struct ProjectedSpace {
     int dimension = 0;            ///< of the space: that of the theory
     Eigen::VectorXd eigenvalues;  ///< of the projected seeds' Gram matrix, descending; the seeds have length 1
     double gap = 0;               ///< the last eigenvalue of the space over the next one; infinite if there is none
-    std::vector<std::string> warnings;
+    Warnings warnings;
 };
 
 /// The quadratic differentials with φ τ² real on the boundary of any domain with smooth boundary, by L² projection: φ

@@ -35,7 +35,7 @@ Singularities RoundDomain::singularities() const {
 void RoundDomain::validate() const {
     const auto bad = [](const std::string& sentence, std::vector<int> indices) {
         throw Error(Cause::bad_option, sentence, "give a disk with round holes apart from each other",
-                    std::move(indices));
+                    {Things::curves, std::move(indices)});
     };
     for (int i = 0; i < circle_count(); ++i)
         if (!std::isfinite(std::norm(circle(i).centre)) || !(circle(i).radius > 0) || !std::isfinite(circle(i).radius))

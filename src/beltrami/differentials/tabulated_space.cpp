@@ -17,7 +17,7 @@ TabulatedSpace::TabulatedSpace(Eigen::MatrixXcd values, Coefficients coefficient
     const std::string where =
         std::to_string(samples.size()) + " samples, the first of which is " + std::to_string(samples.front());
     throw Error(Cause::bad_option, "tabulated differentials are not finite at " + where, "give finite values",
-                std::move(samples));
+                {Things::samples, std::move(samples)});
 }
 
 Eigen::MatrixXcd TabulatedSpace::generators(const ChartPoints&) const {

@@ -142,9 +142,10 @@ FlowMap beltrami_flow(const Surface& source, const Eigen::VectorXcd& mu, const S
     result.fits = coefficient_fits(result.error);
     if (!result.fits)
         result.warnings.push_back(
-            "the coefficient does not belong to a map onto this target: the relative residual is " +
-            std::to_string(result.error.residual) + ", of which " + std::to_string(result.error.misfit) +
-            " are no error of the mesh; the map is the least-squares one");
+            {WarningKind::coefficient,
+             "the coefficient does not belong to a map onto this target: the relative residual is " +
+                 std::to_string(result.error.residual) + ", of which " + std::to_string(result.error.misfit) +
+                 " are no error of the mesh; the map is the least-squares one"});
     warn_of_folds_and_limit(std::to_string(result.iterations) + " iterations before the map settled", result);
     return result;
 }

@@ -16,11 +16,4 @@ void record_map(const Surface& source, const SlidingStart& start, const SlidingB
     result.loops = loops_onto(source, boundary, start.curves, result.map);
 }
 
-void warn_of_folds_and_limit(const std::string& stopped, SlidMap& result) {
-    if (!result.distortion.flipped.empty())
-        result.warnings.push_back("flipped faces in the result: " + std::to_string(result.distortion.flipped.size()) +
-                                  "; it is not one-to-one there");
-    if (result.termination == Termination::iteration_limit) result.warnings.push_back("stopped after " + stopped);
-}
-
 }  // namespace beltrami

@@ -20,7 +20,4 @@ void require_start_of(const Surface& source, const SlidingStart& start);
 /// From the map and where its boundary is: distortion and loops. The start's factorisations are added.
 void record_map(const Surface& source, const SlidingStart& start, const SlidingBoundary& boundary, SlidMap& result);
 
-/// Warnings about flipped faces and, after a limit, about @p stopped: "7 iterations before the map settled".
-void warn_of_folds_and_limit(const std::string& stopped, SlidMap& result);
-
 }  // namespace beltrami

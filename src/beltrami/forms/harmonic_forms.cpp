@@ -37,7 +37,7 @@ Positions corner_points(const Surface& source) {
 
 /// A conformal flattening (#V). Holes are filled by cones whose spokes are as long as the radius of a circle of the
 /// hole's length.
-Eigen::VectorXcd flattened(const Surface& source, std::vector<std::string>& warnings) {
+Eigen::VectorXcd flattened(const Surface& source, Warnings& warnings) {
     Flattening flat;
     const auto& loops = source.topology.boundary_loops;
     if (loops.size() == 1 && !source.metric) {
@@ -72,8 +72,10 @@ Eigen::VectorXcd flattened(const Surface& source, std::vector<std::string>& warn
         std::erase_if(flat.flipped, [&](int f) { return f >= source.mesh.face_count(); });
     }
     if (!flat.flipped.empty())
-        warnings.push_back(std::to_string(flat.flipped.size()) +
-                           " faces are turned over in the flattening that the differential is written in");
+        warnings.push_back({WarningKind::chart,
+                            std::to_string(flat.flipped.size()) +
+                                " faces are turned over in the flattening that the differential is written in",
+                            {Things::faces, flat.flipped}});
     return flat.positions;
 }
 
@@ -156,7 +158,7 @@ void add(HarmonicForms::Form& to, double factor, const HarmonicForms::Form& form
 
 }  // namespace
 
-HarmonicForms::HarmonicForms(const Surface& source, std::vector<std::string>& warnings)
+HarmonicForms::HarmonicForms(const Surface& source, Warnings& warnings)
     : operators_(source.operators),
       neumann_(source.operators, one_vertex_held(source), 10),
       dirichlet_(source.operators, source.topology.on_boundary) {

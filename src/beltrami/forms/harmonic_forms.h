@@ -27,7 +27,7 @@ class HarmonicForms {
     /// @param warnings of the flattening are added
     /// @pre one component with a boundary
     /// @throw Error bad_mesh unless the genus is 0; not_solved if the flattening fails
-    HarmonicForms(const Surface& source, std::vector<std::string>& warnings);
+    HarmonicForms(const Surface& source, Warnings& warnings);
 
     Form zero() const;
     /// #S values of φ in the samples' frames.

@@ -123,7 +123,7 @@ Continuation::Continuation(const Surface& source, const Eigen::VectorXcd& positi
             throw Error(Cause::bad_option,
                         "there is no waypoint of loop " + std::to_string(waypoint.loop) + " at step " +
                             std::to_string(waypoint.step),
-                        "give steps from 1 on and the number of a hole's loop", {waypoint.loop});
+                        "give steps from 1 on and the number of a hole's loop", {Things::loops, {waypoint.loop}});
         pieces_ = std::max(pieces_, waypoint.step + 1);
     }
 
@@ -141,7 +141,7 @@ Continuation::Continuation(const Surface& source, const Eigen::VectorXcd& positi
                         "the prescribed images of boundary loop " + std::to_string(l) + " run " +
                             std::to_string(winding_number(to, last)) + " times around their inside, the loop itself " +
                             std::to_string(winding_number(from, first)) + " times",
-                        "run through the images in the direction of the loop", {l});
+                        "run through the images in the direction of the loop", {Things::loops, {l}});
         Loop loop;
         std::vector<std::optional<Complex>> at(pieces_ + 1);
         at.front() = first;
@@ -198,11 +198,12 @@ void Continuation::require_free_ways() const {
                 const Complex from = loops_[h].centres[piece] - loops_[g].centres[piece],
                               to = loops_[h].centres[piece + 1] - loops_[g].centres[piece + 1];
                 if (distance(0, from, to) < kMeeting * diameter_)
-                    throw Error(
-                        Cause::bad_boundary,
-                        "the ways of boundary loops " + std::to_string(h) + " and " + std::to_string(g) +
-                            " meet between steps " + std::to_string(piece) + " and " + std::to_string(piece + 1),
-                        "lead one around the other by a waypoint: on which side decides the homotopy class", {h, g});
+                    throw Error(Cause::bad_boundary,
+                                "the ways of boundary loops " + std::to_string(h) + " and " + std::to_string(g) +
+                                    " meet between steps " + std::to_string(piece) + " and " +
+                                    std::to_string(piece + 1),
+                                "lead one around the other by a waypoint: on which side decides the homotopy class",
+                                {Things::loops, {h, g}});
             }
 }
 
@@ -221,7 +222,7 @@ BoundaryCondition Continuation::at(double t) const {
         throw Error(Cause::bad_boundary,
                     "there is no room between boundary loops " + std::to_string(h) + " and " + std::to_string(g) +
                         " at step " + std::to_string(t * pieces_) + " of " + std::to_string(pieces_),
-                    "lead the hole elsewhere by a waypoint", {h, g});
+                    "lead the hole elsewhere by a waypoint", {Things::loops, {h, g}});
     };
     // At both ends of the way the gaps are what they are; between them at least kGap, faded in.
     const double wanted_gap = kGap * 4 * t * (1 - t);

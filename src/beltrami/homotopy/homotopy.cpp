@@ -139,7 +139,7 @@ std::vector<int> shortest_path(const Surface& source, const Adjacency& graph, co
     }
     throw Error(Cause::bad_mesh,
                 "boundary loop " + std::to_string(hole) + " is not connected with loop " + std::to_string(outer_loop),
-                "map each component on its own", {hole});
+                "map each component on its own", {Things::loops, {hole}});
 }
 
 }  // namespace

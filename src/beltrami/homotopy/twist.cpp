@@ -91,7 +91,7 @@ Eigen::VectorXcd twisted_map(const Surface& source, const Eigen::VectorXcd& posi
             throw Error(Cause::bad_mesh,
                         "no round ring around boundary loop " + std::to_string(l) +
                             " is free of the other loops, so it cannot be turned",
-                        "give places in a domain whose holes are round", {l});
+                        "give places in a domain whose holes are round", {Things::loops, {l}});
         twists.push_back({ring, extra_turns[l]});
     }
     std::vector<int> moved;
@@ -129,7 +129,8 @@ Eigen::VectorXcd twisted_map(const Surface& source, const Eigen::VectorXcd& posi
             throw Error(Cause::not_solved,
                         "the mesh is too coarse around boundary loop " + std::to_string(paths[i].loop) + ": of " +
                             std::to_string(wanted) + " turns it holds " + std::to_string(after.holes[i].turns),
-                        "refine the mesh there, at least eight layers of faces a turn", {paths[i].loop});
+                        "refine the mesh there, at least eight layers of faces a turn",
+                        {Things::loops, {paths[i].loop}});
     }
     return result;
 }
@@ -159,7 +160,8 @@ Eigen::VectorXcd logarithmic_map(const Surface& source, const Eigen::VectorXcd& 
                         "the image of boundary loop " + std::to_string(l) + " runs " + std::to_string(around) +
                             " times around a point inside the image of the hole, the loop itself " +
                             std::to_string(source_around) + " times around the hole",
-                        "the hole's image must lie inside the outer one's, both in the source's direction", {l});
+                        "the hole's image must lie inside the outer one's, both in the source's direction",
+                        {Things::loops, {l}});
     }
     const int from = path.vertices.front(), to = path.vertices.back();
     const double wanted = smallest_angle(images[from], images[to], centre) + kTurn * turns,

@@ -35,14 +35,14 @@ Eigen::VectorXcd from_lines(const std::filesystem::path& path, int face_count) {
         const int face = rows.indices(i, 0);
         if (given[face])
             throw Error(Cause::unreadable, fmt::format("{} names face {} twice", path.string(), face),
-                        "give one coefficient for each face", {face});
+                        "give one coefficient for each face", {Things::faces, {face}});
         given[face] = 1;
         mu[face] = {rows.values(i, 0), rows.values(i, 1)};
     }
     for (int face = 0; face < face_count; ++face)
         if (!given[face])
             throw Error(Cause::unreadable, fmt::format("{} has no coefficient of face {}", path.string(), face),
-                        "give one for each face, 0 where the map is to be conformal", {face});
+                        "give one for each face, 0 where the map is to be conformal", {Things::faces, {face}});
     return mu;
 }
 
@@ -56,7 +56,7 @@ Eigen::VectorXcd read_coefficient(const std::filesystem::path& path, int face_co
             throw Error(
                 Cause::unreadable,
                 fmt::format("{}: the coefficient of face {} has |μ| = {}", path.string(), face, std::abs(mu[face])),
-                "maps that keep orientation have |μ| < 1", {face});
+                "maps that keep orientation have |μ| < 1", {Things::faces, {face}});
     return mu;
 }
 

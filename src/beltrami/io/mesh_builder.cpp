@@ -46,8 +46,8 @@ void MeshBuilder::add_face(std::span<const int> vertices, std::span<const int> t
 
 void MeshBuilder::note_large(std::size_t corners, const std::string& place) {
     if (++large_ > most_named) return;
-    warnings_.push_back(
-        fmt::format("{}: a face with {} corners was cut into {} triangles", place, corners, corners - 2));
+    warnings_.push_back({WarningKind::file, fmt::format("{}: a face with {} corners was cut into {} triangles", place,
+                                                        corners, corners - 2)});
 }
 
 void MeshBuilder::split_large_faces(Mesh& mesh) {
@@ -81,12 +81,15 @@ LoadedMesh MeshBuilder::finish() {
         result.face_mu =
             Eigen::Map<const Eigen::VectorXcd>(face_mu_.data(), static_cast<Eigen::Index>(face_mu_.size()));
     } else if (!face_mu_.empty()) {
-        warnings_.push_back(name_ + ": the coefficients of the faces go, as those of faces that are cut mean nothing");
+        warnings_.push_back(
+            {WarningKind::file,
+             name_ + ": the coefficients of the faces go, as those of faces that are cut mean nothing"});
     }
     result.warnings = std::move(warnings_);
     if (large_ > most_named) {
-        result.warnings.push_back(fmt::format("{}: {} further faces with more than 4 corners were cut into triangles",
-                                              name_, large_ - most_named));
+        result.warnings.push_back(
+            {WarningKind::file, fmt::format("{}: {} further faces with more than 4 corners were cut into triangles",
+                                            name_, large_ - most_named)});
     }
     return result;
 }

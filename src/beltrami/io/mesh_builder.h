@@ -65,7 +65,7 @@ class MeshBuilder {
     bool texture_per_vertex_ = false;
     std::int64_t large_ = 0;
     FileAttributes attributes_;
-    std::vector<std::string> warnings_;
+    Warnings warnings_;
 };
 
 }  // namespace beltrami

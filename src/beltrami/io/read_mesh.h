@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include <beltrami/base/warning.h>
 #include <beltrami/io/file_attributes.h>
 #include <beltrami/mesh/mesh.h>
 
@@ -16,7 +17,7 @@ struct LoadedMesh {
     Mesh mesh;
     FileAttributes attributes = {};                ///< what else the file says of vertices and faces
     std::optional<Eigen::VectorXcd> face_mu = {};  ///< #F from a PLY's face properties mu_re and mu_im
-    std::vector<std::string> warnings;             ///< sentences without a final full stop; empty if all was taken
+    Warnings warnings;                             ///< empty if all was taken
 };
 
 /// Reads a mesh in the format its extension names: .obj, .ply, .off or .stl, in either case.

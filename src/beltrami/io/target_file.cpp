@@ -53,7 +53,7 @@ TargetCurve curve_of(const Json& value, const std::string& file, const std::stri
         if (kind == "circle") return TargetCurve::circle({circle[0], circle[1]}, circle[2]);
         return kind == "polygon" ? TargetCurve::polygon(points) : TargetCurve::spline(points);
     } catch (const Error& error) {
-        throw Error(Cause::bad_option, fmt::format("{}: {}: {}", file, loop, error.what()), "", error.indices());
+        throw Error(Cause::bad_option, fmt::format("{}: {}: {}", file, loop, error.what()), "", error.where());
     }
 }
 
@@ -93,7 +93,7 @@ TargetDomain parse_target_domain(std::string_view text, const std::string& name)
     try {
         return target_domain(outer, std::move(holes));
     } catch (const Error& error) {
-        throw Error(error.cause(), fmt::format("{}: {}", name, error.what()), "", error.indices());
+        throw Error(error.cause(), fmt::format("{}: {}", name, error.what()), "", error.where());
     }
 }
 

@@ -111,7 +111,8 @@ std::string in_quotes(std::string_view word) {
 void fail_to_read(const std::string& place, const std::string& what, std::int64_t line) {
     std::vector<int> lines;
     if (line > 0) lines.push_back(static_cast<int>(line - 1));
-    throw Error(Cause::unreadable, fmt::format("{}: {}", place, what), "mend the file or export it again", lines);
+    throw Error(Cause::unreadable, fmt::format("{}: {}", place, what), "mend the file or export it again",
+                {Things::lines, lines});
 }
 
 }  // namespace beltrami

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include <beltrami/base/effort.h>
 #include <beltrami/base/error.h>
 #include <beltrami/linear/backend.h>
 
@@ -72,7 +73,8 @@ struct SymmetricSolver::Backend {
         throw Error(Cause::not_solved,
                     "a linear system is singular or not positive definite" +
                         (named.empty() ? std::string() : "; unconstrained unknowns: " + named),
-                    "fix at least one vertex of every component and look for degenerate faces", std::move(rows));
+                    "fix at least one vertex of every component and look for degenerate faces",
+                    {Things::unknowns, std::move(rows)});
     }
 };
 
@@ -103,6 +105,7 @@ int SymmetricSolver::factorization_count() const {
 }
 
 void SymmetricSolver::factorize() {
+    count(Work::factorization);
     Backend& b = *backend_;
     if (b.cholesky) {
         ++b.factorizations;

@@ -142,7 +142,7 @@ std::vector<MeshPoint> MapEvaluation::preimages(std::span<const Complex> points,
         throw Error(Cause::bad_boundary,
                     std::to_string(far.size()) + (far.size() == 1 ? " point lies" : " points lie") +
                         " outside the image of the map, the first is point " + std::to_string(far[0]),
-                    "only points of the image have a place on the source", far);
+                    "only points of the image have a place on the source", {Things::points, far});
     return places;
 }
 

@@ -84,7 +84,7 @@ class Cutter {
         for (const int vertex : v) {
             if (vertex < 0 || vertex >= mesh_.vertex_count()) {
                 throw Error(Cause::bad_mesh, "face " + std::to_string(face) + " names a vertex that does not exist",
-                            "diagnose the mesh and repair it", {face});
+                            "diagnose the mesh and repair it", {Things::faces, {face}});
             }
             above = above || distance_[vertex] > 0.0;
             below = below || distance_[vertex] < 0.0;

@@ -359,6 +359,30 @@ bool spoils_topology(Defect defect) {
     }
 }
 
+namespace {
+
+Things things_of(Defect defect) {
+    switch (defect) {
+        case Defect::not_finite:
+        case Defect::unreferenced_vertex:
+        case Defect::several_components:
+        case Defect::non_manifold_vertex:
+            return Things::vertices;
+        case Defect::non_manifold_edge:
+        case Defect::not_orientable:
+            return Things::edges;
+        default:
+            return Things::faces;
+    }
+}
+
+}  // namespace
+
+Where Finding::where() const {
+    if (indices.empty()) return {};
+    return {things_of(defect), indices};
+}
+
 std::vector<Finding> diagnose(const Mesh& mesh) {
     return Examination(mesh).run();
 }
@@ -371,7 +395,7 @@ std::vector<Finding> require_sound(const Mesh& mesh) {
     std::string sentence = first.sentence;
     if (fatal == 2) sentence += " (and 1 further kind of defect)";
     if (fatal > 2) sentence += " (and " + std::to_string(fatal - 1) + " further kinds of defects)";
-    throw Error(Cause::bad_mesh, sentence, first.next_step, first.indices);
+    throw Error(Cause::bad_mesh, sentence, first.next_step, first.where());
 }
 
 }  // namespace beltrami

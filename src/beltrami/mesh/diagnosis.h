@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include <beltrami/base/warning.h>
 #include <beltrami/mesh/mesh.h>
 
 namespace beltrami {
@@ -34,6 +35,8 @@ struct Finding {
     std::string sentence;  ///< plain words, without a final full stop
     std::string next_step;
     std::vector<int> indices;  ///< vertices, edges as vertex pairs or faces, as the sentence says; counted from 0
+
+    Where where() const;
 };
 
 /// True of the defects with which edges, loops and genus are not defined.

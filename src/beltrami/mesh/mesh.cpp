@@ -49,7 +49,7 @@ Eigen::MatrixXi face_matrix(const Mesh& mesh) {
     if (!others.empty()) {
         const std::string sentence =
             "face " + std::to_string(others[0]) + " has " + std::to_string(mesh.faces.degree(others[0])) + " corners";
-        throw Error(Cause::bad_mesh, sentence, "triangulate the mesh", std::move(others));
+        throw Error(Cause::bad_mesh, sentence, "triangulate the mesh", {Things::faces, std::move(others)});
     }
     Eigen::MatrixXi F = Eigen::MatrixXi::Constant(mesh.face_count(), quads ? 4 : 3, -1);
     for (int face = 0; face < mesh.face_count(); ++face) {

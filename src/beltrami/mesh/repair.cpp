@@ -142,7 +142,7 @@ OrientedMesh orient(const Mesh& mesh) {
             case Defect::non_manifold_edge:
             case Defect::degenerate_face:
             case Defect::index_out_of_range:
-                throw Error(Cause::bad_mesh, finding.sentence, finding.next_step, finding.indices);
+                throw Error(Cause::bad_mesh, finding.sentence, finding.next_step, finding.where());
             default:
                 break;
         }

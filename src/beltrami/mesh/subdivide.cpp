@@ -16,7 +16,7 @@ void require_usable_indices(const Mesh& mesh) {
         if (!usable) {
             throw Error(Cause::bad_mesh,
                         "face " + std::to_string(face) + " is neither a triangle nor a quad of existing vertices",
-                        "diagnose the mesh and repair it", {face});
+                        "diagnose the mesh and repair it", {Things::faces, {face}});
         }
     }
 }

@@ -17,15 +17,15 @@ Eigen::VectorXcd texture_map(const Mesh& mesh) {
         if (t < 0)
             throw Error(Cause::bad_mesh,
                         "vertex " + std::to_string(v) + " has no texture coordinates in one of its faces",
-                        "give vt at every corner", {v});
+                        "give vt at every corner", {Things::vertices, {v}});
         const Complex place(mesh.texture->points(t, 0), mesh.texture->points(t, 1));
         if (!std::isfinite(place.real()) || !std::isfinite(place.imag()))
             throw Error(Cause::bad_mesh, "the texture coordinates of vertex " + std::to_string(v) + " are not finite",
-                        "give two numbers", {v});
+                        "give two numbers", {Things::vertices, {v}});
         if (known[v] && map[v] != place)
             throw Error(Cause::bad_mesh,
                         "vertex " + std::to_string(v) + " has several texture coordinates: a seam runs through it",
-                        "give a map without seams, one vt a vertex", {v});
+                        "give a map without seams, one vt a vertex", {Things::vertices, {v}});
         known[v] = 1;
         map[v] = place;
     }

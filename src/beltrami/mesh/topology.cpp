@@ -24,7 +24,7 @@ namespace {
             case Defect::non_manifold_vertex:
             case Defect::inconsistent_orientation:
             case Defect::not_orientable:
-                throw Error(Cause::bad_mesh, finding.sentence, finding.next_step, finding.indices);
+                throw Error(Cause::bad_mesh, finding.sentence, finding.next_step, finding.where());
             default:
                 break;
         }

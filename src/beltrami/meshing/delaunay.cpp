@@ -35,7 +35,8 @@ void validate(const PlanarDomain& domain) {
     const int n = static_cast<int>(domain.points.size());
     for (int i = 0; i < n; ++i) {
         if (!domain.points[i].allFinite()) {
-            throw Error(Cause::bad_option, "point " + std::to_string(i) + " of the domain is not finite", "", {i});
+            throw Error(Cause::bad_option, "point " + std::to_string(i) + " of the domain is not finite", "",
+                        {Things::points, {i}});
         }
     }
     if (domain.segments.size() < 3 || domain.curves.size() != domain.segments.size()) {
@@ -46,7 +47,7 @@ void validate(const PlanarDomain& domain) {
         if (a < 0 || b < 0 || a >= n || b >= n || a == b || domain.curves[i] < 0) {
             throw Error(Cause::bad_option,
                         "segment " + std::to_string(i) + " of the domain has impossible ends or curve", "",
-                        {static_cast<int>(i)});
+                        {Things::points, {static_cast<int>(i)}});
         }
     }
 }
@@ -74,7 +75,7 @@ std::vector<int> insert_points(Triangulation& triangulation, const std::vector<E
             throw Error(
                 Cause::bad_option,
                 "points " + std::to_string(first) + " and " + std::to_string(second) + " of the domain coincide",
-                "give every point once", {first, second});
+                "give every point once", {Things::points, {first, second}});
         }
         point_of.push_back(i);
         vertex_of[i] = vertex;
@@ -115,7 +116,8 @@ Mesh extract(const Triangulation& triangulation, const std::vector<int>& vertex_
     for (std::size_t i = 0; i < vertex_of.size(); ++i) {
         if (!used[vertex_of[i]]) {
             throw Error(Cause::bad_option, "point " + std::to_string(i) + " lies outside the domain",
-                        "check that the boundary is closed and the point inside", {static_cast<int>(i)});
+                        "check that the boundary is closed and the point inside",
+                        {Things::points, {static_cast<int>(i)}});
         }
         index[vertex_of[i]] = static_cast<int>(i);
     }

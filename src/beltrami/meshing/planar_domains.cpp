@@ -62,16 +62,17 @@ void require_separate(const Circle& outer, const std::vector<Circle>& holes) {
     for (std::size_t i = 0; i < holes.size(); ++i) {
         const int index = static_cast<int>(i);
         if (!(holes[i].radius > 0.0)) {
-            throw Error(Cause::bad_option, "hole " + std::to_string(i) + " has no positive radius", "", {index});
+            throw Error(Cause::bad_option, "hole " + std::to_string(i) + " has no positive radius", "",
+                        {Things::curves, {index}});
         }
         if (!((holes[i].centre - outer.centre).norm() + holes[i].radius < outer.radius)) {
             throw Error(Cause::bad_option, "hole " + std::to_string(i) + " touches or leaves the outer circle",
-                        "move it inwards or make it smaller", {index});
+                        "move it inwards or make it smaller", {Things::curves, {index}});
         }
         for (std::size_t j = 0; j < i; ++j) {
             if ((holes[i].centre - holes[j].centre).norm() > holes[i].radius + holes[j].radius) continue;
             throw Error(Cause::bad_option, "holes " + std::to_string(j) + " and " + std::to_string(i) + " touch",
-                        "move them apart", {static_cast<int>(j), index});
+                        "move them apart", {Things::curves, {static_cast<int>(j), index}});
         }
     }
 }
@@ -205,12 +206,12 @@ Mesh polygon_domain(const Polygon& outer, const std::vector<Polygon>& holes, con
         }
         if (i > 0 && !encloses(outer, loops[i][0])) {
             throw Error(Cause::bad_option, "hole " + std::to_string(index) + " lies outside the outer polygon",
-                        "move it inside", {index});
+                        "move it inside", {Things::curves, {index}});
         }
         for (std::size_t j = 1; i > 0 && j < loops.size(); ++j) {
             if (j == i || !encloses(loops[j], loops[i][0])) continue;
             throw Error(Cause::bad_option, "hole " + std::to_string(index) + " lies in hole " + std::to_string(j - 1),
-                        "give separate holes", {index, static_cast<int>(j) - 1});
+                        "give separate holes", {Things::curves, {index, static_cast<int>(j) - 1}});
         }
         domain.points.insert(domain.points.end(), loops[i].begin(), loops[i].end());
     }

@@ -241,7 +241,8 @@ void Triangulation::constrain(int a, int b, int curve) {
                     throw Error(Cause::bad_option,
                                 "boundary curves " + std::to_string(mine.curves[crossing.index]) + " and " +
                                     std::to_string(curve) + " cross each other",
-                                "give curves that neither cross nor touch", {mine.curves[crossing.index], curve});
+                                "give curves that neither cross nor touch",
+                                {Things::curves, {mine.curves[crossing.index], curve}});
                 }
                 crossed.emplace_back(mine.vertices[next(crossing.index)], mine.vertices[previous(crossing.index)]);
                 const Edge back = twin(crossing);
@@ -278,7 +279,7 @@ void Triangulation::constrain(int a, int b, int curve) {
         if (mark >= 0 && mark != curve) {
             throw Error(Cause::bad_option,
                         "boundary curves " + std::to_string(mark) + " and " + std::to_string(curve) + " overlap",
-                        "give curves that neither cross nor touch", {mark, curve});
+                        "give curves that neither cross nor touch", {Things::curves, {mark, curve}});
         }
         mark = curve;
         triangles_[back.triangle].curves[back.index] = curve;

@@ -74,6 +74,14 @@ double dilatation(double abs_mu) {
     return (1 + abs_mu) / std::abs(1 - abs_mu);
 }
 
+double Distortion::K_max() const {
+    return flipped.empty() ? max_dilatation() : std::numeric_limits<double>::infinity();
+}
+
+double k_of(double K) {
+    return (K - 1) / (K + 1);
+}
+
 MuStatistics mu_statistics(const Eigen::VectorXcd& mu, const std::vector<double>& weights) {
     const int n = static_cast<int>(mu.size());
     Eigen::VectorXd size(n);

@@ -15,6 +15,9 @@ Eigen::VectorXcd beltrami_coefficient(const Operators& source, const Positions& 
 /// K = (1+|μ|)/|1−|μ||: infinite at |μ| = 1, and of a turned-over face the ratio of its singular values.
 double dilatation(double abs_mu);
 
+/// k = (K−1)/(K+1), the |μ| of the dilatation K.
+double k_of(double K);
+
 /// What a map does to its source, measured by the one routine that solvers, tests and the command share.
 struct Distortion {
     Eigen::VectorXcd mu;          ///< #S
@@ -28,6 +31,8 @@ struct Distortion {
     std::vector<int> degenerate;    ///< faces whose image has an area below 1e-14 of the image's squared diameter
 
     double max_dilatation() const { return dilatation(max); }
+    /// The same where no face is flipped; else infinite.
+    double K_max() const;
 };
 
 /// Distortion of a map by its derivatives.

@@ -85,7 +85,7 @@ struct Builder {
                 (bad_faces.size() > 1 ? " and " + std::to_string(bad_faces.size() - 1) + " more have" : " has") +
                 " no positive area in the metric";
             throw Error(Cause::bad_mesh, sentence, "remove zero-area faces, split reflex quads, turn folded faces over",
-                        std::move(bad_faces));
+                        {Things::faces, std::move(bad_faces)});
         }
         return std::move(result);
     }
@@ -194,13 +194,14 @@ Positions corners_from_lengths(const Mesh& mesh, std::span<const EdgeLength> len
         const std::string name = std::to_string(a) + " " + std::to_string(b);
         if (it == top.edges.end() || *it != key)
             throw Error(Cause::bad_mesh, "the metric names " + name + ", which is not an edge of the mesh",
-                        "give one line per edge: i j length", {a, b});
+                        "give one line per edge: i j length", {Things::edges, {a, b}});
         if (!(length > 0) || !std::isfinite(length))
             throw Error(Cause::bad_mesh, "the metric gives edge " + name + " a length that is not positive",
-                        "lengths are positive numbers", {a, b});
+                        "lengths are positive numbers", {Things::edges, {a, b}});
         double& slot = edge_length[it - top.edges.begin()];
         if (slot >= 0)
-            throw Error(Cause::bad_mesh, "the metric names edge " + name + " twice", "give one line per edge", {a, b});
+            throw Error(Cause::bad_mesh, "the metric names edge " + name + " twice", "give one line per edge",
+                        {Things::edges, {a, b}});
         slot = length;
     }
     for (int e = 0; e < top.edge_count(); ++e)
@@ -208,13 +209,13 @@ Positions corners_from_lengths(const Mesh& mesh, std::span<const EdgeLength> len
             throw Error(Cause::bad_mesh,
                         "the metric gives no length for edge " + std::to_string(top.edges[e][0]) + " " +
                             std::to_string(top.edges[e][1]),
-                        "give one line per edge: i j length", {top.edges[e][0], top.edges[e][1]});
+                        "give one line per edge: i j length", {Things::edges, {top.edges[e][0], top.edges[e][1]}});
     Positions corners = Positions::Zero(mesh.faces.corner_count(), 2);
     for (int f = 0; f < mesh.face_count(); ++f) {
         if (mesh.faces.degree(f) != 3)
             throw Error(Cause::bad_mesh,
                         "face " + std::to_string(f) + " is a quad, whose shape edge lengths do not determine",
-                        "split the quads, or give the metric as texture coordinates", {f});
+                        "split the quads, or give the metric as texture coordinates", {Things::faces, {f}});
         const int c = mesh.faces.first_corner(f);
         const double l01 = edge_length[top.corner_edges[c]], l12 = edge_length[top.corner_edges[c + 1]],
                      l20 = edge_length[top.corner_edges[c + 2]];
@@ -226,7 +227,7 @@ Positions corners_from_lengths(const Mesh& mesh, std::span<const EdgeLength> len
         if (!(heron > 0))
             throw Error(Cause::bad_mesh,
                         "the lengths of face " + std::to_string(f) + " violate the triangle inequality",
-                        "check the metric of its three edges", {f});
+                        "check the metric of its three edges", {Things::faces, {f}});
         const double x = (l01 * l01 + l20 * l20 - l12 * l12) / (2 * l01), height = 0.5 * std::sqrt(heron) / l01;
         corners(c + 1, 0) = l01;
         corners.row(c + 2) << x, height;
@@ -252,12 +253,12 @@ Positions texture_corners(const Mesh& mesh) {
             const int t = mesh.texture->corners[c];
             if (t < 0)
                 throw Error(Cause::bad_mesh, "face " + std::to_string(f) + " has a corner without texture coordinates",
-                            "every face needs vt", {f});
+                            "every face needs vt", {Things::faces, {f}});
             corners.row(c) = mesh.texture->points.row(t).head(2);
             if (!corners.row(c).allFinite())
                 throw Error(Cause::bad_mesh,
                             "face " + std::to_string(f) + " has texture coordinates that are not finite",
-                            "repair the vt of its corners", {f});
+                            "repair the vt of its corners", {Things::faces, {f}});
         }
     return corners;
 }

@@ -45,7 +45,7 @@ void require_simple_polygon(const std::vector<Complex>& polygon) {
             throw Error(
                 Cause::bad_boundary,
                 "points " + std::to_string(i) + " and " + std::to_string((i + 1) % n) + " of the polygon coincide",
-                "list every point once; the polygon closes by itself", {i, (i + 1) % n});
+                "list every point once; the polygon closes by itself", {Things::points, {i, (i + 1) % n}});
     if (!(signed_area(polygon) > 0))
         throw Error(Cause::bad_boundary, "the polygon is clockwise or has no area",
                     "list its points counter-clockwise");
@@ -71,7 +71,7 @@ void require_simple_polygon(const std::vector<Complex>& polygon) {
                 throw Error(Cause::bad_boundary,
                             "edges " + std::to_string(e) + " and " + std::to_string(f) +
                                 " of the polygon meet: it is not simple",
-                            "an edge is counted by its first point, from 0", {e, f});
+                            "an edge is counted by its first point, from 0", {Things::points, {e, f}});
         }
 }
 

@@ -23,14 +23,14 @@ void require_points(const std::vector<Complex>& points, const std::string& what,
     for (int i = 0; i < n; ++i)
         if (!(std::abs(points[i].real()) < 1e150 && std::abs(points[i].imag()) < 1e150))
             throw Error(Cause::bad_option, which + " " + std::to_string(i) + " of the " + what + " is not finite",
-                        "give coordinates below 1e150", {i});
+                        "give coordinates below 1e150", {Things::points, {i}});
     for (int i = 0; i < n; ++i) {
         const int next = (i + 1) % n;
         if (points[i] == points[next])
             throw Error(
                 Cause::bad_option,
                 which + "s " + std::to_string(i) + " and " + std::to_string(next) + " of the " + what + " coincide",
-                "list every point once; the curve closes by itself", {i, next});
+                "list every point once; the curve closes by itself", {Things::points, {i, next}});
     }
 }
 
@@ -68,7 +68,7 @@ TargetCurve TargetCurve::through(Kind kind, const std::vector<Complex>& points) 
                         detail::at_place(given.point(found->first)),
                     "they are counted by the " + which + " where they begin, from 0; list the " + which +
                         "s in order around a simple curve",
-                    {first, second});
+                    {Things::points, {first, second}});
     }
     if (!(given.area() > 1e-14 * given.diameter() * given.diameter()))
         throw Error(Cause::bad_option, "the " + what + " encloses no area",

@@ -14,6 +14,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// Places of a warning that a record lists; there may be as many as there are faces.
+constexpr std::size_t kMostListed = 100;
+
 /// JSON has no NaN and no infinity: both are null.
 Json number(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
@@ -34,11 +37,9 @@ Json to_object(const MapRecord& map) {
     if (!map.bounds.empty()) {
         Json bounds = Json::array();
         for (const Bound& bound : map.bounds)
-            bounds.push_back({{"kind", bound.kind},
+            bounds.push_back({{"kind", to_string(bound.kind)},
                               {"K", number(bound.K)},
-                              {"of", bound.of == Bound::Of::extremal ? "K*"
-                                     : bound.of == Bound::Of::mesh   ? "mesh"
-                                                                     : "polygons"},
+                              {"of", to_string(bound.of)},
                               {"rigorous", bound.rigorous}});
         object["bounds"] = std::move(bounds);
     }
@@ -185,6 +186,22 @@ Json to_object(const GridRecord& grid) {
               {"area_ratio", number(quality.area_ratio)}}}};
 }
 
+/// Kinds and places of warnings, in the order of their sentences.
+Json to_details(const Warnings& warnings) {
+    Json rows = Json::array();
+    for (const Warning& warning : warnings) {
+        Json row = {{"kind", to_string(warning.kind)}};
+        if (const std::vector<int>& indices = warning.where.indices; !indices.empty()) {
+            const auto listed = std::min(indices.size(), kMostListed);
+            row["of"] = to_string(warning.where.of);
+            row["count"] = indices.size();
+            row["indices"] = std::vector<int>(indices.begin(), indices.begin() + static_cast<std::ptrdiff_t>(listed));
+        }
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
 void add_outline(const OutlineRecord& outline, Json& json) {
     if (const auto& chart = outline.in_chart)
         json["chart"] = {{"mu_mean", number(chart->chart_mean)},
@@ -325,25 +342,33 @@ MapRecord map_record(const ExtremalMap& result) {
     if (result.distortion.flipped.empty() || result.K_lower > 1) record.K_lower = result.K_lower;
     record.K_lower_proved = result.K_lower_proved;
     for (const Bound& bound : result.bounds)
-        if (bound.kind == "verified") record.K_upper = bound.K;
+        if (bound.kind == Bound::Kind::verified) record.K_upper = bound.K;
     record.bounds = result.bounds;
     record.boundary_residual = result.boundary_residual;
     return record;
 }
+
+namespace {
+
+bool is_estimate(Bound::Kind kind) {
+    return kind == Bound::Kind::reich_strebel_estimate || kind == Bound::Kind::averaged_estimate;
+}
+
+}  // namespace
 
 MapRecord map_record(const LeastMaximumMap& result) {
     MapRecord record = map_record(result.distortion);
     if (result.extremal) {
         // k, K and the attained value are those of another map; what is below K* is below every map's K.
         for (const Bound& bound : result.extremal->bounds)
-            if (bound.kind != "attained" && !bound.kind.ends_with("_estimate")) record.bounds.push_back(bound);
+            if (bound.kind != Bound::Kind::attained && !is_estimate(bound.kind)) record.bounds.push_back(bound);
         if (result.extremal->distortion.flipped.empty() || result.extremal->K_lower > 1)
             record.K_lower = result.extremal->K_lower;
         record.K_lower_proved = result.extremal->K_lower_proved;
         record.boundary_residual = result.extremal->boundary_residual;
     }
     if (record.K_max && std::isfinite(*record.K_max))
-        record.bounds.push_back({"attained", *record.K_max, Bound::Of::extremal, true});
+        record.bounds.push_back({Bound::Kind::attained, *record.K_max, Bound::Of::extremal, true});
     return record;
 }
 
@@ -481,7 +506,8 @@ std::string to_json(const Record& record) {
                              {"solve", to_object(part.solve)}});
         json["components"] = std::move(parts);
     }
-    json["warnings"] = record.warnings;
+    json["warnings"] = sentences(record.warnings);
+    if (!record.warnings.empty()) json["warning_details"] = to_details(record.warnings);
     // Names of files may hold any bytes; JSON holds UTF-8 only.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -523,7 +549,7 @@ std::string to_remarks(const Record& record) {
             slack->largest_move, slack->slack, slack->K_without);
     if (const auto& noise = record.outline.noise; noise && record.map && record.map->K)
         text += fmt::format(
-            "the outline's noise costs: moving points by at most half an edge (--slack {:g}) would give K about {:.2f} "
+            "the outline's noise costs: moving points by at most half an edge (slack {:g}) would give K about {:.2f} "
             "instead of {:.2f}\n",
             noise->slack, noise->K, *record.map->K);
     if (record.certificate)
@@ -557,8 +583,7 @@ std::string to_sentence(const Record& record) {
     if (!record.map || !record.map->K_lower) return {};
     const MapRecord& map = *record.map;
     const bool rigorous = std::any_of(map.bounds.begin(), map.bounds.end(), [&](const Bound& bound) {
-        return bound.rigorous && bound.of == Bound::Of::extremal && bound.kind != "attained" &&
-               bound.kind != "verified" && bound.K == *map.K_lower;
+        return bound.proves_from_below() && bound.K == *map.K_lower;
     });
     std::string proved = rigorous ? "proved up to rounding" : "estimate";
     if (!rigorous && map.K_lower_proved && *map.K_lower_proved > 1)

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <beltrami/base/warning.h>
 #include <beltrami/charts/uniformization.h>
 #include <beltrami/flow/beltrami_flow.h>
 #include <beltrami/report/grid_record.h>
@@ -177,7 +178,7 @@ struct Record {
     std::optional<DistancesRecord> distances;
     std::vector<MethodRecord> comparison;
     std::vector<ComponentRecord> components;
-    std::vector<std::string> warnings;
+    Warnings warnings;
 };
 
 SourceRecord source_record(const Mesh& mesh);

@@ -231,7 +231,7 @@ struct BeltramiSolver::Implementation {
             if (vertices.size() > 10) named += " and " + std::to_string(vertices.size() - 10) + " more";
             throw Error(Cause::not_solved, "the map is not determined at the vertices " + named,
                         "pin at least one vertex of every component, two where the boundary is free",
-                        std::move(vertices));
+                        {Things::vertices, std::move(vertices)});
         }
     }
 };
@@ -395,7 +395,7 @@ Eigen::VectorXcd least_squares_conformal_map(const Surface& source, const Bounda
     for (const Complex image : pins.images) two_points = two_points || image != pins.images[0];
     if (!two_points)
         throw Error(Cause::bad_boundary, "a conformal map needs two pins with different images",
-                    "pin two vertices, or none", pins.vertices);
+                    "pin two vertices, or none", {Things::vertices, pins.vertices});
     BeltramiSolver solver(source, freedoms(pins, source), 1);
     solver.factorize(Eigen::VectorXcd::Zero(source.operators.sample_count()), line_directions(pins, source));
     return solver.solve(prescribed_values(pins, source));

@@ -34,7 +34,8 @@ Eigen::VectorXcd compose_maps(const Eigen::VectorXcd& f, const Mesh& middle, con
             std::to_string(far.size()) +
             " points of the first map lie outside the mesh of the second, the first is vertex " +
             std::to_string(far[0]);
-        throw Error(Cause::bad_boundary, sentence, "the first map's image must be the second's domain", std::move(far));
+        throw Error(Cause::bad_boundary, sentence, "the first map's image must be the second's domain",
+                    {Things::vertices, std::move(far)});
     }
     return result;
 }

@@ -1,7 +1,5 @@
 #include <beltrami/solve/map_result.h>
 
-#include <limits>
-
 namespace beltrami {
 
 const char* to_string(Termination termination) {
@@ -18,8 +16,14 @@ const char* to_string(Termination termination) {
     return "unknown";
 }
 
-double largest_dilatation(const Distortion& distortion) {
-    return distortion.flipped.empty() ? dilatation(distortion.max) : std::numeric_limits<double>::infinity();
+void warn_of_folds_and_limit(const std::string& stopped, MapResult& result, const char* further) {
+    if (const std::vector<int>& flipped = result.distortion.flipped; !flipped.empty())
+        result.warnings.push_back({WarningKind::flipped_faces,
+                                   "flipped faces in the result: " + std::to_string(flipped.size()) +
+                                       "; it is not one-to-one there" + further,
+                                   {Things::faces, flipped}});
+    if (result.termination == Termination::iteration_limit)
+        result.warnings.push_back({WarningKind::iteration_limit, "stopped after " + stopped});
 }
 
 }  // namespace beltrami

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include <beltrami/base/warning.h>
 #include <beltrami/operators/distortion.h>
 
 namespace beltrami {
@@ -27,13 +28,14 @@ struct MapResult {
     Termination termination = Termination::converged;
     int iterations = 0;      ///< linear solves
     int factorizations = 0;  ///< of #V×#V systems and larger, those of charts and starts included
-    std::vector<std::string> warnings;
+    Warnings warnings;
 
     /// Whether no face is flipped or collapsed: with a simple boundary polygon the map is then one-to-one.
     bool one_to_one() const { return distortion.flipped.empty() && distortion.degenerate.empty(); }
 };
 
-/// Largest K of a face; infinite if faces are flipped or collapsed.
-double largest_dilatation(const Distortion& distortion);
+/// Adds warnings about flipped faces, with what follows from them (@p further), and, after a limit, about @p stopped:
+/// "7 iterations before the map settled".
+void warn_of_folds_and_limit(const std::string& stopped, MapResult& result, const char* further = "");
 
 }  // namespace beltrami

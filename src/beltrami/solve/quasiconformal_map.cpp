@@ -20,7 +20,7 @@ void require_coefficient(const Surface& source, const Eigen::VectorXcd& mu) {
     if (bad.empty()) return;
     const std::string sentence = "the coefficient is not below 1 in size at " + std::to_string(bad.size()) +
                                  " samples, the first of them " + std::to_string(bad[0]);
-    throw Error(Cause::bad_option, sentence, "every |μ| must be finite and below 1", std::move(bad));
+    throw Error(Cause::bad_option, sentence, "every |μ| must be finite and below 1", {Things::samples, std::move(bad)});
 }
 
 Eigen::VectorXcd quasiconformal_map(const Surface& source, const Eigen::VectorXcd& mu,

@@ -87,7 +87,8 @@ SlidingBoundary::SlidingBoundary(const Surface& source, std::vector<SlidingLoop>
             if (!(next > l.parameters[i]))
                 throw Error(Cause::bad_boundary,
                             name + ": the places of its vertices on the target curve do not follow each other",
-                            "start from a map that keeps the order of the boundary vertices", {boundary[l.loop][i]});
+                            "start from a map that keeps the order of the boundary vertices",
+                            {Things::vertices, {boundary[l.loop][i]}});
         }
         Rim& rim = rims_.emplace_back();
         const auto& lengths = source.boundary_edge_lengths[l.loop];
@@ -110,14 +111,14 @@ void SlidingBoundary::require_whole_boundary(const std::vector<char>& slides) co
         for (const int v : source_.topology.boundary_loops[l])
             if (!slides[l] && !is_prescribed[v])
                 throw Error(Cause::bad_boundary, "boundary loop " + std::to_string(l) + " has no target curve",
-                            "give it one, or prescribe all of its vertices", {v});
+                            "give it one, or prescribe all of its vertices", {Things::vertices, {v}});
     for (const SlidingLoop& l : loops_) {
         const auto& vertices = source_.topology.boundary_loops[l.loop];
         for (std::size_t i = 0; i < vertices.size(); ++i)
             if (is_prescribed[vertices[i]] && !l.held[i])
                 throw Error(Cause::bad_boundary,
                             "vertex " + std::to_string(vertices[i]) + " is prescribed and slides along its curve",
-                            "hold it, or leave it out of what is prescribed", {vertices[i]});
+                            "hold it, or leave it out of what is prescribed", {Things::vertices, {vertices[i]}});
     }
 }
 

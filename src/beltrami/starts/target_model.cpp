@@ -126,7 +126,7 @@ int curve_of_loop(const CircleDomainChart& chart, int loop) {
     for (std::size_t h = 0; h < chart.holes.size(); ++h)
         if (chart.holes[h].loop == loop) return static_cast<int>(h) + 1;
     throw Error(Cause::bad_option, "the target has no boundary loop " + std::to_string(loop),
-                "`beltrami info` prints the loops' numbers");
+                "loops are counted from 0", {Things::loops, {loop}});
 }
 
 /// The place on the circle domain of a boundary vertex of the target.
@@ -135,7 +135,7 @@ CurveParameter place_on_circles(const Surface& target, const CircleDomainChart& 
     if (!on)
         throw Error(Cause::bad_boundary,
                     "the mark's vertex " + std::to_string(vertex) + " is not on the boundary of the target",
-                    "mark boundary vertices only", {vertex});
+                    "mark boundary vertices only", {Things::vertices, {vertex}});
     const RoundHole circle = chart.circle(on->loop);
     const int curve = curve_of_loop(chart, on->loop);
     const double angle = std::arg(chart.chart.vertices[vertex] - circle.centre);
@@ -152,7 +152,7 @@ Correspondence correspondence_on_circles(const Correspondence& wanted, const Sur
         const TargetVertex* to = std::get_if<TargetVertex>(&mark.to);
         if (!to)
             throw Error(Cause::bad_option, "marks on curves are given for a target that is a surface",
-                        "give pairs of vertices instead", {mark.vertex});
+                        "give pairs of vertices instead", {Things::vertices, {mark.vertex}});
         mark.to = place_on_circles(target, chart, to->vertex);
     }
     return result;

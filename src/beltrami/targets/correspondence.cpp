@@ -39,7 +39,7 @@ void require_partners(const Surface& source, const TargetDomain& domain, const s
             throw Error(Cause::bad_option,
                         "boundary loop " + std::to_string(l) + " has the partner " + std::to_string(partners[l]) +
                             ", which does not exist or is taken",
-                        "give every loop a curve of its own", {static_cast<int>(l)});
+                        "give every loop a curve of its own", {Things::loops, {static_cast<int>(l)}});
         taken[partners[l]] = 1;
     }
 }
@@ -50,16 +50,16 @@ void require_on_boundary(const std::vector<int>& vertices, const Surface& source
     const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
     if (twice != sorted.end())
         throw Error(Cause::bad_boundary, "vertex " + std::to_string(*twice) + " is marked twice", "mark it once",
-                    {*twice});
+                    {Things::vertices, {*twice}});
     for (const int v : vertices) {
         if (v < 0 || v >= source.mesh.vertex_count())
             throw Error(Cause::bad_boundary,
                         "vertex " + std::to_string(v) + " is marked, but the source has the vertices 0 to " +
                             std::to_string(source.mesh.vertex_count() - 1),
-                        "vertices are counted from 0", {v});
+                        "vertices are counted from 0", {Things::vertices, {v}});
         if (places.loop[v] < 0)
             throw Error(Cause::bad_boundary, "vertex " + std::to_string(v) + " is marked but not on the boundary",
-                        "mark boundary vertices", {v});
+                        "mark boundary vertices", {Things::vertices, {v}});
     }
 }
 
@@ -83,7 +83,8 @@ void validate(const std::vector<Mark>& marks, const Surface& source, const Targe
             throw Error(Cause::bad_boundary,
                         "the mark of vertex " + std::to_string(mark.vertex) + " is not a place of " +
                             curve_name(partner) + ", the partner of its loop",
-                        "mark a place of that curve, or give the loops other partners", {mark.vertex});
+                        "mark a place of that curve, or give the loops other partners",
+                        {Things::vertices, {mark.vertex}});
     }
     std::vector<Mark> sorted = marks;
     std::sort(sorted.begin(), sorted.end(), [&](const Mark& a, const Mark& b) {
@@ -103,7 +104,7 @@ void validate(const std::vector<Mark>& marks, const Surface& source, const Targe
                 throw Error(Cause::bad_boundary,
                             "vertices " + std::to_string(here.vertex) + " and " + std::to_string(next.vertex) +
                                 " are marked with one place of " + curve_name(on),
-                            "give different places", {here.vertex, next.vertex});
+                            "give different places", {Things::vertices, {here.vertex, next.vertex}});
             around += ahead;
             if (around > 1.5 * curve.length())
                 throw Error(Cause::bad_boundary,
@@ -112,7 +113,7 @@ void validate(const std::vector<Mark>& marks, const Surface& source, const Targe
                                 "to vertex " +
                                 std::to_string(next.vertex),
                             "a one-to-one map keeps the order, the surface on the left on both sides",
-                            {here.vertex, next.vertex});
+                            {Things::vertices, {here.vertex, next.vertex}});
         }
         first = last;
     }
@@ -121,7 +122,7 @@ void validate(const std::vector<Mark>& marks, const Surface& source, const Targe
 Mark nearest_mark(const TargetDomain& domain, int vertex, Complex point) {
     if (!std::isfinite(point.real()) || !std::isfinite(point.imag()))
         throw Error(Cause::bad_boundary, "the place of the marked vertex " + std::to_string(vertex) + " is not finite",
-                    "give numbers", {vertex});
+                    "give numbers", {Things::vertices, {vertex}});
     Mark best{vertex, 0, 0};
     double least = std::numeric_limits<double>::infinity();
     for (int c = 0; c < domain.curve_count(); ++c) {

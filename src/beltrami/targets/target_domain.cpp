@@ -16,14 +16,14 @@ void require_separate(const TargetDomain& domain, Cause cause, const Name& name)
     for (int i = 1; i < n; ++i) {
         for (int j = 0; j < i; ++j)
             if (meeting(domain.curve(j), domain.curve(i)))
-                throw Error(cause, name(j) + " and " + name(i) + " meet", "move them apart", {j, i});
+                throw Error(cause, name(j) + " and " + name(i) + " meet", "move them apart", {Things::curves, {j, i}});
         if (!domain.outer.contains(domain.curve(i).point(0)))
-            throw Error(cause, name(i) + " lies outside " + name(0), "move it inside", {i});
+            throw Error(cause, name(i) + " lies outside " + name(0), "move it inside", {Things::curves, {i}});
     }
     for (int i = 1; i < n; ++i)
         for (int j = 1; j < n; ++j)
             if (j != i && domain.curve(j).contains(domain.curve(i).point(0)))
-                throw Error(cause, name(i) + " lies in " + name(j), "give separate holes", {i, j});
+                throw Error(cause, name(i) + " lies in " + name(j), "give separate holes", {Things::curves, {i, j}});
 }
 
 TargetDomain oriented(TargetCurve outer, std::vector<TargetCurve> holes) {
@@ -62,7 +62,7 @@ void validate(const TargetDomain& domain) {
     for (int i = 0; i < domain.curve_count(); ++i)
         if (domain.curve(i).counter_clockwise() != (i == 0))
             throw Error(Cause::bad_option, curve_name(i) + " runs the wrong way",
-                        "make the domain with target_domain, which turns its curves", {i});
+                        "make the domain with target_domain, which turns its curves", {Things::curves, {i}});
     require_separate(domain, Cause::bad_option, curve_name);
 }
 
@@ -82,7 +82,7 @@ TargetDomain boundary_domain(const Surface& planar) {
         } catch (const Error& error) {
             throw Error(Cause::bad_boundary,
                         name(static_cast<int>(curves.size())) + " is not a simple polygon: " + error.what(), "",
-                        error.indices());
+                        error.where());
         }
     }
     const TargetCurve outer = curves[0];

@@ -122,7 +122,7 @@ void place_boundary(TargetMesh& result, const TargetDomain& domain) {
     const Topology topo = topology(result.mesh);
     const auto astray = [](int vertex) {
         return Error(Cause::not_solved, "the mesh of the target domain does not follow its curves",
-                     "give shorter edges", {vertex});
+                     "give shorter edges", {Things::vertices, {vertex}});
     };
     if (topo.boundary_loops.size() != static_cast<std::size_t>(domain.curve_count())) throw astray(0);
     for (const std::vector<int>& loop : topo.boundary_loops) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <beltrami/base/warning.h>
 #include <beltrami/charts/circle_domain_chart.h>
 #include <beltrami/differentials/differential_space.h>
 #include <beltrami/differentials/singularities.h>
@@ -26,7 +27,7 @@ struct AdmissibleDifferentials {
     std::optional<int> expected_dimension;     ///< where theory says it and the space does not grow
     double gap = 0;                            ///< how clearly the dimension was told
     ExtremalOptions::Space kind = ExtremalOptions::Space::laurent;
-    std::vector<std::string> warnings;
+    Warnings warnings;
 };
 
 /// Those of a source all of whose boundary slides.

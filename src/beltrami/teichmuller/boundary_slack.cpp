@@ -239,7 +239,7 @@ Eigen::VectorXd rim_angles(const std::vector<int>& rim, const Chart& chart) {
             throw Error(Cause::bad_boundary,
                         "the boundary does not run forward in the conformal chart at vertex " + std::to_string(rim[i]) +
                             ", so its points cannot be moved against their noise",
-                        "use no slack, or mend the mesh there", {rim[i]});
+                        "use no slack, or mend the mesh there", {Things::vertices, {rim[i]}});
         angles[static_cast<Eigen::Index>(i)] = angle;
     }
     return angles * (kTwoPi / angles.sum());

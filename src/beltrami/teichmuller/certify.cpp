@@ -9,6 +9,7 @@
 #include <beltrami/base/error.h>
 #include <beltrami/certificate/refined_problem.h>
 #include <beltrami/certificate/verified_bracket.h>
+#include <beltrami/teichmuller/least_dilatation.h>
 #include <beltrami/teichmuller/record_proofs.h>
 
 namespace beltrami {
@@ -28,7 +29,8 @@ void take_over(ExtremalMap& result, const ExtremalMap& finer) {
     const auto best_of = [](const ExtremalMap& map, bool rigorous) {
         const Bound* best = nullptr;
         for (const Bound& bound : map.bounds)
-            if (bound.kind == "reich_strebel" && (bound.rigorous || !rigorous) && (!best || bound.K > best->K))
+            if (bound.kind == Bound::Kind::reich_strebel && (bound.rigorous || !rigorous) &&
+                (!best || bound.K > best->K))
                 best = &bound;
         return best ? std::optional<Bound>(*best) : std::nullopt;
     };
@@ -42,10 +44,11 @@ void take_over(ExtremalMap& result, const ExtremalMap& finer) {
     if (bounds[0]) kept.push_back(*bounds[0]);
     if (bounds[1] && !bounds[0]->rigorous) kept.push_back(*bounds[1]);
     for (const Bound& bound : result.bounds)
-        if (bound.kind != "reich_strebel" && bound.kind != "reich_strebel_estimate") kept.push_back(bound);
+        if (bound.kind != Bound::Kind::reich_strebel && bound.kind != Bound::Kind::reich_strebel_estimate)
+            kept.push_back(bound);
     for (const Bound& other : finer.bounds) {  // proofs of the same problem on the finer mesh
-        if (!other.rigorous || other.of != Bound::Of::extremal || other.kind == "attained" ||
-            other.kind == "reich_strebel")
+        if (!other.rigorous || other.of != Bound::Of::extremal || other.kind == Bound::Kind::attained ||
+            other.kind == Bound::Kind::reich_strebel)
             continue;
         const auto same = std::find_if(kept.begin(), kept.end(), [&](const Bound& b) { return b.kind == other.kind; });
         if (same == kept.end())
@@ -57,9 +60,9 @@ void take_over(ExtremalMap& result, const ExtremalMap& finer) {
     if (finer.K_lower > result.K_lower) {  // else that mesh knows less, its estimate too
         result.K_lower = finer.K_lower;
         result.K = std::max(std::min(finer.K, result.K_max), result.K_lower);
-        result.k = (result.K - 1) / (result.K + 1);
+        result.k = k_of(result.K);
     }
-    kept.push_back({"reich_strebel_estimate", result.K, Bound::Of::extremal, false});
+    kept.push_back({Bound::Kind::reich_strebel_estimate, result.K, Bound::Of::extremal, false});
     result.bounds = std::move(kept);
 }
 
@@ -135,9 +138,10 @@ std::string prove(const Surface& source, const BoundaryCondition& boundary, doub
     result.factorizations += bracket.factorizations;
     if (bracket.pair > 1) {
         std::erase_if(result.bounds,
-                      [&](const Bound& bound) { return bound.kind == "pair" && bound.K < bracket.pair; });
-        if (std::none_of(result.bounds.begin(), result.bounds.end(), [](const Bound& b) { return b.kind == "pair"; }))
-            result.bounds.push_back({"pair", bracket.pair, Bound::Of::extremal, true});
+                      [&](const Bound& bound) { return bound.kind == Bound::Kind::pair && bound.K < bracket.pair; });
+        if (std::none_of(result.bounds.begin(), result.bounds.end(),
+                         [](const Bound& b) { return b.kind == Bound::Kind::pair; }))
+            result.bounds.push_back({Bound::Kind::pair, bracket.pair, Bound::Of::extremal, true});
         raise_to_proofs(result);
     }
     done.gap = done.K_upper / result.K_lower_proved - 1;
@@ -219,6 +223,13 @@ Certification certify(const Surface& source, const Constraints& constraints, dou
     if (!constraints.all_prescribed())
         throw Error(Cause::bad_option, "where boundaries slide the bounds are estimates: nothing can be certified",
                     "prescribe the boundary values");
+    if (const std::vector<int> free = free_parts(source, constraints.prescribed); !free.empty())
+        throw Error(
+            Cause::bad_boundary,
+            std::to_string(free.size()) +
+                " boundary vertices are free, and then no map attains the least K, which is 1: there is nothing "
+                "to certify",
+            "prescribe the whole boundary", {Things::vertices, free});
     ExtremalOptions own = options;
     own.sharpen = std::max(0, options.sharpen.value_or(0));
     if (!own.prove) own.prove = true;
@@ -232,14 +243,14 @@ Certification certify(const Surface& source, const Constraints& constraints, dou
     ExtremalMap& result = done.result;
     if (result.K > done.K_upper) {  // an estimate that the bracket refutes
         result.K = done.K_upper;
-        result.k = (result.K - 1) / (result.K + 1);
+        result.k = k_of(result.K);
     }
     done.gap = done.K_upper / result.K_lower_proved - 1;
     done.estimated_gap = gap_of(result);
     done.reached = done.gap <= gap;
     std::string known = "K* at least " + rounded(result.K_lower_proved, false);
     if (std::isfinite(done.K_upper)) {
-        result.bounds.push_back({"verified", done.K_upper, Bound::Of::extremal, true});
+        result.bounds.push_back({Bound::Kind::verified, done.K_upper, Bound::Of::extremal, true});
         known = "K* in [" + rounded(result.K_lower_proved, false) + ", " + rounded(done.K_upper, true) +
                 "] (floating point), a gap of " + percent(done.gap);
     }

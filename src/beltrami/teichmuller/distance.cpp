@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <string>
 
 #include <beltrami/base/error.h>
+#include <beltrami/charts/shape.h>
 
 namespace beltrami {
 
@@ -22,7 +24,7 @@ void naming(const std::string& name, const std::vector<int>& shapes, const Actio
         action();
     } catch (const Error& error) {
         if (error.cause() == Cause::cancelled) throw;
-        throw Error(error.cause(), name + ": " + error.what(), {}, shapes);
+        throw Error(error.cause(), name + ": " + error.what(), {}, {Things::shapes, shapes});
     }
 }
 
@@ -31,24 +33,38 @@ Distance distance_of(const ExtremalMap& map) {
             map.termination == Termination::converged && map.one_to_one()};
 }
 
+/// The options with the shapes' charts.
+ExtremalOptions with_charts_of(ExtremalOptions options, const std::vector<const Shape*>& shapes) {
+    options.shapes.insert(options.shapes.end(), shapes.begin(), shapes.end());
+    return options;
+}
+
 }  // namespace
 
-Distance teichmueller_distance(const Surface& a, const Surface& b, const Correspondence& wanted,
-                               const ExtremalOptions& options, int outer, bool both_ways) {
+Distance teichmueller_distance(const Shape& a, const Shape& b, const Correspondence& wanted,
+                               const ExtremalOptions& given, int outer, bool both_ways) {
     if (both_ways && (!wanted.loops.empty() || !wanted.marks.empty() || wanted.waypoints))
         throw Error(Cause::bad_option, "pairs of loops, marks and waypoints are those of one direction",
                     "ask for that direction only");
-    const Distance there = distance_of(extremal_map(a, Constraints(b, wanted, outer), options));
+    const ExtremalOptions options = with_charts_of(given, {&a, &b});
+    const Distance there = distance_of(extremal_map(a.surface(), Constraints(b.surface(), wanted, outer), options));
     if (!both_ways) return there;
     Correspondence reversed = wanted;
     reversed.outer_loop = outer;
-    const Distance back = distance_of(extremal_map(b, Constraints(a, reversed, wanted.outer_loop), options));
+    const Distance back =
+        distance_of(extremal_map(b.surface(), Constraints(a.surface(), reversed, wanted.outer_loop), options));
     Distance result{0.5 * (there.distance + back.distance), std::max(there.lower, back.lower),
                     std::min(there.upper, back.upper), there.settled && back.settled};
     // Errors of second order can make the bounds of the two directions cross.
     if (result.lower > result.upper) std::swap(result.lower, result.upper);
     result.distance = std::clamp(result.distance, result.lower, result.upper);
     return result;
+}
+
+Distance teichmueller_distance(const Surface& a, const Surface& b, const Correspondence& wanted,
+                               const ExtremalOptions& options, int outer, bool both_ways) {
+    const Shape shape_a(a), shape_b(b);
+    return teichmueller_distance(shape_a, shape_b, wanted, options, outer, both_ways);
 }
 
 DistanceMatrix distance_matrix(const std::vector<Surface>& surfaces, const Correspondence& wanted,
@@ -67,7 +83,12 @@ DistanceMatrix distance_matrix(const std::vector<Surface>& surfaces, const Corre
                         name(0) + " has " + std::to_string(surfaces[0].topology.boundary_loops.size()) +
                             " boundary loops, " + name(i) + " has " +
                             std::to_string(surfaces[i].topology.boundary_loops.size()),
-                        "compare shapes with the same number of holes", {0, i});
+                        "compare shapes with the same number of holes", {Things::shapes, {0, i}});
+    std::vector<std::unique_ptr<const Shape>> shapes;
+    for (int i = 0; i < n; ++i) {
+        shapes.push_back(std::make_unique<const Shape>(surfaces[i]));
+        naming(name(i), {i}, [&] { shapes.back()->circles(wanted.outer_loop); });
+    }
     DistanceMatrix result;
     result.distance = result.lower = result.upper = Eigen::MatrixXd::Zero(n, n);
     int done = 0;
@@ -75,7 +96,7 @@ DistanceMatrix distance_matrix(const std::vector<Surface>& surfaces, const Corre
         for (int j = i + 1; j < n; ++j) {
             Distance d;
             naming(name(i) + " and " + name(j), {i, j},
-                   [&] { d = teichmueller_distance(surfaces[i], surfaces[j], wanted, options, wanted.outer_loop); });
+                   [&] { d = teichmueller_distance(*shapes[i], *shapes[j], wanted, options, wanted.outer_loop); });
             result.distance(i, j) = result.distance(j, i) = d.distance;
             result.lower(i, j) = result.lower(j, i) = d.lower;
             result.upper(i, j) = result.upper(j, i) = d.upper;

@@ -22,6 +22,9 @@ struct Distance {
 /// @throw Error as extremal_map
 Distance teichmueller_distance(const Surface& a, const Surface& b, const Correspondence& wanted = {},
                                const ExtremalOptions& options = {}, int outer = 0, bool both_ways = true);
+/// The same of shapes whose charts are kept.
+Distance teichmueller_distance(const Shape& a, const Shape& b, const Correspondence& wanted = {},
+                               const ExtremalOptions& options = {}, int outer = 0, bool both_ways = true);
 
 /// All distances of some shapes: symmetric, 0 on the diagonal.
 struct DistanceMatrix {
@@ -29,7 +32,7 @@ struct DistanceMatrix {
     std::vector<std::array<int, 2>> unsettled;  ///< pairs some map of which has not converged or has folds
 };
 
-/// @param surfaces at least two, kept by reference during the call
+/// Every shape is charted once. @param surfaces at least two, kept by reference during the call
 /// @param progress called after each pair with their number; returning false cancels (Error cancelled)
 /// @param names    what errors call the shapes; empty: "shape 0" …
 /// @throw Error bad_mesh naming a shape that is not of genus 0 with a boundary; bad_boundary naming two shapes with

@@ -44,8 +44,7 @@ ExtremalMapBetween extremal_map_between(const Surface& source, const Surface& ta
     result.plane.factorizations += result.target.circles.factorizations;
     for (Bound& bound : result.plane.bounds) bound.rigorous = false;
     result.plane.K_lower_proved = 1;
-    const std::vector<std::string>& more = result.target.circles.chart.warnings;
-    result.plane.warnings.insert(result.plane.warnings.end(), more.begin(), more.end());
+    append(result.plane.warnings, result.target.circles.chart.warnings);
     result.places = places_on_target(source, target, result.target, result.plane.map);
     result.positions = positions_on(target.mesh, result.places);
     return result;

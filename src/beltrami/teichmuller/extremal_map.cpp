@@ -15,11 +15,13 @@ bool corner_decides(const BoundaryCorner& corner, double K) {
     return corner.safe_bound > (1 + kCornerMargin) * K;
 }
 
-std::string corner_warning(const BoundaryCorner& corner) {
-    return "at vertex " + std::to_string(corner.vertex) + " the boundary values alone force K ≥ " +
-           std::to_string(corner.safe_bound) +
-           ": the extremal map is not of Teichmüller type; gentler speed there (--speed conformal) or other boundary "
-           "values would lower K";
+Warning corner_warning(const BoundaryCorner& corner) {
+    return {
+        WarningKind::corner,
+        "at vertex " + std::to_string(corner.vertex) + " the boundary values alone force K ≥ " +
+            std::to_string(corner.safe_bound) +
+            ": the extremal map is not of Teichmüller type; gentler speed there or other boundary values would lower K",
+        {Things::vertices, {corner.vertex}}};
 }
 
 ExtremalMap extremal_map(const Mesh& source, const Constraints& constraints, const ExtremalOptions& options) {

@@ -19,9 +19,9 @@
 
 namespace beltrami {
 
-/// Whether a corner forces a K that is clearly larger, and the sentence that says so.
+/// Whether a corner forces a K that is clearly larger, and the warning that says so.
 bool corner_decides(const BoundaryCorner& corner, double K);
-std::string corner_warning(const BoundaryCorner& corner);
+Warning corner_warning(const BoundaryCorner& corner);
 
 /// A part of the surface that pinned curves cut off: a problem of its own.
 struct ExtremalPiece {

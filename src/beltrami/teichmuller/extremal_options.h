@@ -10,6 +10,8 @@
 
 namespace beltrami {
 
+class Shape;
+
 /// How an extremal problem is solved.
 struct ExtremalOptions : IterationOptions {
     // tolerance: stop when the change of the direction of φ is below this, and |Δk| below it too (where boundaries
@@ -19,11 +21,15 @@ struct ExtremalOptions : IterationOptions {
     double growth = 1e-5;      ///< the space of differentials grows while that raises k by more than this part
     int cluster_count = 1500;  ///< quadrature points of the c-step on large meshes, at least 100
     /// A map to start from (#V) instead of the harmonic one, for instance one of another homotopy class; prescribed
-    /// vertices are put in their places. Where the map that comes of it is folded, all begins again without it, and a
-    /// warning says so.
+    /// vertices are put in their places, those that slide on the nearest points of their curves, in order. Where the
+    /// map that comes of it is folded, or where boundaries slide does not settle, all begins again without it, and a
+    /// warning says so. Onto a surface it is a map to the surface's circle domain.
     std::optional<Eigen::VectorXcd> start;
     /// Split edges and faces that the prescribed vertices nail down (prescribed_split.h): no solver can repair them.
     bool split_prescribed = true;
+    /// Surfaces that take part, source or target, whose charts are kept for further problems; each is asked for its own
+    /// instead of one being made.
+    std::vector<const Shape*> shapes;
     /// Even |μ| out after the iteration (even_dilatation.h): where the map is still far from |μ| = k, always or never.
     /// Where the boundary slides, in part or as a whole, only always does; sliding vertices then keep their places.
     enum class Evening { where_needed, always, never };

@@ -168,28 +168,36 @@ LeastMaximumMap least_maximum_map(const Surface& source, const Constraints& cons
                                 "the map of least maximum has " + std::to_string(hole.turns) + " turns against loop " +
                                     std::to_string(hole.loop) + " instead of " + std::to_string(turns) +
                                     ": the start was folded too much to keep its class",
-                                "refine the mesh, or leave out --minimize max");
+                                "refine the mesh, or take the extremal map", {Things::loops, {hole.loop}});
             }
         }
     }
     if (!result.fold_free)
-        result.warnings.push_back(result.status == FoldFreeStatus::impossible
-                                      ? "the prescribed vertices alone force a fold"
-                                      : std::to_string(result.distortion.flipped.size()) +
-                                            " flipped faces could not be opened");
-    if (!result.branch_points.empty())
         result.warnings.push_back(
-            "the map winds more than once around vertex " + std::to_string(result.branch_points[0]) +
-            (result.branch_points.size() > 1 ? " and " + std::to_string(result.branch_points.size() - 1) + " others"
-                                             : "") +
-            ": it is not one-to-one there; prescribe more of the boundary");
+            result.status == FoldFreeStatus::impossible
+                ? Warning{WarningKind::fold_forced, "the prescribed vertices alone force a fold"}
+                : Warning{WarningKind::flipped_faces,
+                          std::to_string(result.distortion.flipped.size()) + " flipped faces could not be opened",
+                          {Things::faces, result.distortion.flipped}});
+    if (!result.branch_points.empty())
+        result.warnings.push_back({WarningKind::branch_points,
+                                   "the map winds more than once around vertex " +
+                                       std::to_string(result.branch_points[0]) +
+                                       (result.branch_points.size() > 1
+                                            ? " and " + std::to_string(result.branch_points.size() - 1) + " others"
+                                            : "") +
+                                       ": it is not one-to-one there; prescribe more of the boundary",
+                                   {Things::vertices, result.branch_points}});
     if (!result.distortion.degenerate.empty() && result.distortion.flipped.empty())
-        result.warnings.push_back(std::to_string(result.distortion.degenerate.size()) +
-                                  " faces are smaller than 1e-14 of the image: sizes run apart towards free parts of "
-                                  "the boundary, the more the finer the mesh; prescribe more of it");
+        result.warnings.push_back(
+            {WarningKind::degenerate_faces,
+             std::to_string(result.distortion.degenerate.size()) +
+                 " faces are smaller than 1e-14 of the image: sizes run apart towards free parts of "
+                 "the boundary, the more the finer the mesh; prescribe more of it",
+             {Things::faces, result.distortion.degenerate}});
     if (result.status == FoldFreeStatus::iteration_limit)
-        result.warnings.push_back("stopped after " + std::to_string(result.iterations) +
-                                  " Newton steps before the largest |μ| settled");
+        result.warnings.push_back({WarningKind::iteration_limit, "stopped after " + std::to_string(result.iterations) +
+                                                                     " Newton steps before the largest |μ| settled"});
     return result;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <beltrami/base/warning.h>
 #include <beltrami/teichmuller/extremal_map.h>
 #include <beltrami/unfold/fold_free.h>
 
@@ -39,7 +40,7 @@ struct LeastMaximumMap {
     std::optional<ExtremalMap> extremal;
     std::optional<SplitProblem> split;  ///< the mesh that was mapped, if it is not the source itself
     HomotopyClass homotopy;             ///< of map, with holes whose loops are all prescribed
-    std::vector<std::string> warnings;
+    Warnings warnings;
 };
 
 /// The map of this mesh whose largest |μ| is least: the discrete min-max problem, which the extremal map solves in the

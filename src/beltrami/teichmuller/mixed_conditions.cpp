@@ -15,7 +15,7 @@ namespace {
 int loop_of(const Surface& source, int vertex) {
     if (const auto at = boundary_position(source.topology, vertex)) return at->loop;
     throw Error(Cause::bad_boundary, "vertex " + std::to_string(vertex) + ", the end of an arc, is not on the boundary",
-                "an arc runs along a boundary loop from one of its vertices to another", {vertex});
+                "an arc runs along a boundary loop from one of its vertices to another", {Things::vertices, {vertex}});
 }
 
 /// Whether every vertex of a loop is prescribed.
@@ -75,7 +75,8 @@ MixedConditions mixed_conditions(const Surface& source, const Constraints& const
         if (slides[l] && !result.curves[l])
             throw Error(Cause::bad_boundary,
                         "boundary loop " + std::to_string(l) + " slides, in part at least, and has no curve",
-                        "give a target, or the curve of its arcs", {source.topology.boundary_loops[l][0]});
+                        "give a target, or the curve of its arcs",
+                        {Things::vertices, {source.topology.boundary_loops[l][0]}});
     return result;
 }
 

@@ -72,6 +72,9 @@ bool all_slides(const MixedBoundary& boundary) {
 PreparedProblem prepare_mixed(const Surface& source, const MixedConditions& conditions,
                               const ExtremalOptions& options) {
     options.validate();
+    if (options.start)
+        throw Error(Cause::bad_option, "a start is given where boundaries slide in part",
+                    "give one where they are prescribed or slide everywhere");
     require_genus_zero(source);
     const auto& loops = source.topology.boundary_loops;
     if (conditions.outer_loop < 0 || conditions.outer_loop >= static_cast<int>(loops.size()))
@@ -146,10 +149,12 @@ AdmissibleDifferentials mixed_differentials(const Surface& source, const CircleD
     for (std::size_t i = 0; i < held.vertices.size(); ++i)
         mixed.held.push_back({z[held.vertices[i]], Complex(0, 1) * std::conj(held.directions[i])});
     for (const ConstraintCurve& curve : constraint_curves(boundary.prescribed, source)) {
-        result.warnings.push_back("vertices " + std::to_string(curve.vertices[0]) + " and " +
-                                  std::to_string(curve.vertices[1]) +
-                                  " are neighbours inside, and both are constrained: φ has poles at such vertices, but "
-                                  "does not jump across the edges between them");
+        result.warnings.push_back(
+            {WarningKind::constraints,
+             "vertices " + std::to_string(curve.vertices[0]) + " and " + std::to_string(curve.vertices[1]) +
+                 " are neighbours inside, and both are constrained: φ has poles at such vertices, but "
+                 "does not jump across the edges between them",
+             {Things::vertices, {curve.vertices[0], curve.vertices[1]}}});
         break;
     }
     result.singularities = mixed.singularities();

@@ -107,7 +107,7 @@ class LoopPlaces {
             throw Error(Cause::bad_boundary,
                         "the image of vertex " + std::to_string(vertices_[i]) +
                             ", beside vertices that slide, does not lie on the curve along which they do",
-                        "ends of sliding arcs and marks go to the curve", {vertices_[i]});
+                        "ends of sliding arcs and marks go to the curve", {Things::vertices, {vertices_[i]}});
         return s;
     }
     void place_between(int first) {
@@ -135,7 +135,8 @@ class LoopPlaces {
             throw Error(Cause::bad_boundary,
                         "the prescribed vertices of a loop follow each other along its curve in another order than "
                         "along the loop",
-                        "a one-to-one map keeps the order, the surface on the left on both sides", {vertices_[first]});
+                        "a one-to-one map keeps the order, the surface on the left on both sides",
+                        {Things::vertices, {vertices_[first]}});
         for (int m = 0; m < n; ++m) parameters_[(first + m) % n] = unwound[m] - (first + m >= n ? around : 0);
     }
 
@@ -270,7 +271,7 @@ MixedBoundary mixed_boundary(const Surface& source, const MixedConditions& condi
             throw Error(Cause::bad_boundary,
                         "the arc from vertex " + std::to_string(arc.first) + " to vertex " + std::to_string(arc.last) +
                             " does not lie on a boundary loop",
-                        "name two vertices of one loop", {arc.first, arc.last});
+                        "name two vertices of one loop", {Things::vertices, {arc.first, arc.last}});
     }
     MixedBoundary result;
     std::vector<char> is_prescribed(source.mesh.vertex_count(), 0);
@@ -295,7 +296,7 @@ MixedBoundary mixed_boundary(const Surface& source, const MixedConditions& condi
             throw Error(Cause::bad_boundary,
                         "vertex " + std::to_string(vertex) + " of boundary loop " + std::to_string(l) +
                             " is not prescribed, and its loop has no curve along which it could slide",
-                        "prescribe the whole loop, or give it a curve", {vertex});
+                        "prescribe the whole loop, or give it a curve", {Things::vertices, {vertex}});
         if (curve->counter_clockwise() != (static_cast<int>(l) == conditions.outer_loop)) *curve = curve->reversed();
     }
     return result;

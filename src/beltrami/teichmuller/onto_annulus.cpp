@@ -83,12 +83,12 @@ std::optional<ExtremalMap> crowded_annulus_onto_ring(const Surface& source, cons
     const double least = stretch / (kTwoPi * potentials.v_energy), most = stretch * potentials.u_energy / kTwoPi;
     result.K_lower = std::max({1.0, least, 1 / most});
     result.K_upper = std::max(most, 1 / least);
-    result.K_max = dilatation(result.distortion.max);
+    result.K_max = result.distortion.K_max();
     result.K = std::sqrt(result.K_lower * result.K_upper);
-    result.k = (result.K - 1) / (result.K + 1);
-    result.bounds = {{"moduli", result.K_lower, Bound::Of::extremal, true},
-                     {"moduli_upper", result.K_upper, Bound::Of::extremal, true},
-                     {"attained", result.K_max, Bound::Of::extremal, true}};
+    result.k = k_of(result.K);
+    result.bounds = {{Bound::Kind::moduli, result.K_lower, Bound::Of::extremal, true},
+                     {Bound::Kind::moduli_upper, result.K_upper, Bound::Of::extremal, true},
+                     {Bound::Kind::attained, result.K_max, Bound::Of::extremal, true}};
     result.dimension = result.expected_dimension = 1;
     result.factorizations = 2;
     for (const int loop : {0, 1})

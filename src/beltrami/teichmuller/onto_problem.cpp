@@ -4,7 +4,10 @@
 #include <string>
 
 #include <beltrami/base/error.h>
+#include <beltrami/charts/shape.h>
 #include <beltrami/differentials/dimension.h>
+#include <beltrami/mesh/subdivide.h>
+#include <beltrami/starts/given_start.h>
 #include <beltrami/teichmuller/coarse_sliding_start.h>
 #include <beltrami/teichmuller/onto_annulus.h>
 
@@ -20,7 +23,15 @@ PreparedProblem prepare_onto(const Surface& source, const Constraints& constrain
     if (!options.start_turns.empty() && static_cast<int>(options.start_turns.size()) != loops)
         throw Error(Cause::bad_option, "start turns are given for " + std::to_string(options.start_turns.size()) +
                                            " boundary loops, the source has " + std::to_string(loops));
-    return prepared(split_bridges(source));
+    if (options.start && constraints.correspondence.waypoints)
+        throw Error(Cause::bad_option, "waypoints fix the homotopy class: give no start with them");
+    if (options.start && options.start->size() != source.mesh.vertex_count())
+        throw Error(Cause::bad_option, "the start has " + std::to_string(options.start->size()) + " values for " +
+                                           std::to_string(source.mesh.vertex_count()) + " vertices");
+    const Shape* shape = shape_of(source, options.shapes);
+    if (!shape) return prepared(split_bridges(source));
+    shape->without_bridges();
+    return shape->bridges() ? prepared(*shape->bridges()) : PreparedProblem();
 }
 
 /// Marked vertices in the order of the loops.
@@ -38,7 +49,7 @@ std::vector<int> marked_vertices(const Surface& source, const std::vector<Mark>&
 OntoProblem::OntoProblem(const Surface& source, const Constraints& constraints, const ExtremalOptions& options,
                          const TargetModel* target)
     : SlidingProblem(source, prepare_onto(source, constraints, options), constraints.correspondence.outer_loop,
-                     "boundary"),
+                     "boundary", options.shapes),
       options_(options),
       wanted_(constraints.correspondence) {
     make_target(source, constraints, target);
@@ -48,7 +59,9 @@ OntoProblem::OntoProblem(const Surface& source, const Constraints& constraints, 
 void OntoProblem::make_target(const Surface& source, const Constraints& constraints, const TargetModel* given) {
     if (const SurfaceTarget* onto = constraints.surface()) {
         target_surface_ = onto->surface;
-        target_circles_ = circle_domain_chart(*onto->surface, onto->outer_loop);
+        const Shape* shape = shape_of(*onto->surface, options_.shapes);
+        target_circles_ =
+            shape ? shape->circles(onto->outer_loop) : circle_domain_chart(*onto->surface, onto->outer_loop);
         wanted_ = correspondence_on_circles(wanted_, *onto->surface, *target_circles_);
     }
     if (!given) {
@@ -70,7 +83,12 @@ std::optional<ExtremalMap> OntoProblem::direct() const {
 }
 
 SlidingStart OntoProblem::start() const {
-    std::optional<SlidingStart> result = coarse_sliding_start(source(), domain(), *target_, wanted_, options_);
+    std::optional<SlidingStart> result;
+    if (options_.start)
+        result =
+            given_start(source(), target_->domain(),
+                        split() ? with_parents_means(*options_.start, split()->parents) : *options_.start, wanted_);
+    if (!result) result = coarse_sliding_start(source(), domain(), *target_, wanted_, options_);
     if (!result) result = sliding_start(source(), domain(), *target_, wanted_, options_.start_turns);
     hold_what_conformal_maps_move(result->loops, outer_loop(), marked_.size());
     return std::move(*result);

@@ -51,7 +51,7 @@ PiecewiseSolver::PiecewiseSolver(const Surface& source, const Constraints& const
 
 std::string PiecewiseSolver::name(std::size_t piece) const {
     return "in the piece of face " + std::to_string(pieces_[piece].faces[0]) + " (" +
-           std::to_string(pieces_[piece].faces.size()) + " faces, its vertices and loops counted anew): ";
+           std::to_string(pieces_[piece].faces.size()) + " faces, its vertices and loops counted anew)";
 }
 
 ExtremalSolver::Update PiecewiseSolver::update(const std::vector<Complex>& images, int max_iterations) {
@@ -118,17 +118,21 @@ void PiecewiseSolver::merge(std::vector<ExtremalMap>& parts, ExtremalMap& whole)
             whole.termination = part.termination;
         if (part.K > parts[decisive].K) decisive = p;
         // Warnings about corners name vertices of the whole.
+        const auto of_piece = [&](const Warning& warning) {
+            return Warning{warning.kind, name(p) + ": " + warning.sentence,
+                           in_whole(warning.where, pieces_[p].vertices, pieces_[p].faces)};
+        };
         if (part.sharpest) {
             const BoundaryCorner& corner = *part.sharpest;
             const bool decides = part.termination == Termination::not_teichmuller;
-            const std::string own = decides ? corner_warning(corner) : std::string();
+            const std::optional<Warning> own = decides ? std::optional(corner_warning(corner)) : std::nullopt;
             BoundaryCorner moved = corner;
             moved.vertex = pieces_[p].vertices[corner.vertex];
-            for (std::string& warning : part.warnings)
-                whole.warnings.push_back(warning == own ? corner_warning(moved) : name(p) + warning);
+            for (const Warning& warning : part.warnings)
+                whole.warnings.push_back(warning == own ? corner_warning(moved) : of_piece(warning));
             if (!whole.sharpest || moved.safe_bound > whole.sharpest->safe_bound) whole.sharpest = moved;
         } else {
-            for (std::string& warning : part.warnings) whole.warnings.push_back(name(p) + warning);
+            for (const Warning& warning : part.warnings) whole.warnings.push_back(of_piece(warning));
         }
     }
     // Pieces count their loops themselves.
@@ -143,7 +147,7 @@ void PiecewiseSolver::merge(std::vector<ExtremalMap>& parts, ExtremalMap& whole)
     whole.corners = find_corners(source_, boundary_);
     whole.history = std::move(parts[decisive].history);
     whole.distortion = distortion(operators, whole.map);
-    whole.K_max = largest_dilatation(whole.distortion);
+    whole.K_max = whole.distortion.K_max();
     record_residual(boundary_, whole);
     if (!paths_.empty()) whole.homotopy = homotopy_class(source_, paths_, whole.map, outer_loop_);
     merge_bounds(parts, whole);
@@ -173,7 +177,7 @@ QuadraticDifferential PiecewiseSolver::differential_of_pieces(const std::vector<
 
 /// Of every kind the largest, for a bound of a piece's map is one of the whole's.
 void PiecewiseSolver::merge_bounds(const std::vector<ExtremalMap>& parts, ExtremalMap& whole) const {
-    const auto take = [&](const std::string& kind, bool rigorous_alone) {
+    const auto take = [&](Bound::Kind kind, bool rigorous_alone) {
         const Bound* best = nullptr;
         for (const ExtremalMap& part : parts)
             for (const Bound& bound : part.bounds)
@@ -181,19 +185,21 @@ void PiecewiseSolver::merge_bounds(const std::vector<ExtremalMap>& parts, Extrem
                     best = &bound;
         return best;
     };
-    const Bound *lower = take("reich_strebel", false), *proved = take("reich_strebel", true);
+    const Bound *lower = take(Bound::Kind::reich_strebel, false), *proved = take(Bound::Kind::reich_strebel, true);
     if (lower) whole.bounds.push_back(*lower);
     if (proved && proved != lower) whole.bounds.push_back(*proved);
-    for (const char* kind :
-         {"reich_strebel_estimate", "averaged_estimate", "corner", "edge_corner", "moduli", "pair", "mesh_harmonic"})
+    using Kind = Bound::Kind;
+    for (const Kind kind : {Kind::reich_strebel_estimate, Kind::averaged_estimate, Kind::corner, Kind::edge_corner,
+                            Kind::moduli, Kind::pair, Kind::mesh_harmonic})
         if (const Bound* bound = take(kind, false)) whole.bounds.push_back(*bound);
-    if (whole.distortion.flipped.empty()) whole.bounds.push_back({"attained", whole.K_max, Bound::Of::extremal, true});
+    if (whole.distortion.flipped.empty())
+        whole.bounds.push_back({Bound::Kind::attained, whole.K_max, Bound::Of::extremal, true});
     for (const ExtremalMap& part : parts) {
         whole.K = std::max(whole.K, part.K);
         whole.K_lower = std::max(whole.K_lower, part.K_lower);
         whole.K_lower_proved = std::max(whole.K_lower_proved, part.K_lower_proved);
     }
-    whole.k = (whole.K - 1) / (whole.K + 1);
+    whole.k = k_of(whole.K);
 }
 
 }  // namespace beltrami

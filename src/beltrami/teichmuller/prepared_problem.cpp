@@ -5,9 +5,9 @@
 
 namespace beltrami {
 
-std::string PreparedProblem::split_warning(const char* kind) const {
-    return std::to_string(split->split_edges) + " edges between " + kind +
-           " vertices were split; added vertices follow the source's";
+Warning PreparedProblem::split_warning(const char* kind) const {
+    return {WarningKind::edges_split, std::to_string(split->split_edges) + " edges between " + kind +
+                                          " vertices were split; added vertices follow the source's"};
 }
 
 PreparedProblem prepared(SplitProblem split) {

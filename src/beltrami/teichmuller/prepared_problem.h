@@ -18,7 +18,7 @@ struct PreparedProblem {
     /// What the result says about the split.
     /// @param kind of the vertices between which edges were split
     /// @pre split
-    std::string split_warning(const char* kind) const;
+    Warning split_warning(const char* kind) const;
 };
 
 /// The problem on a mesh that was split; the source's own where nothing had to be.

@@ -5,6 +5,7 @@
 #include <string>
 
 #include <beltrami/base/error.h>
+#include <beltrami/charts/shape.h>
 #include <beltrami/constraints/boundary_feasibility.h>
 #include <beltrami/homotopy/continuation.h>
 #include <beltrami/homotopy/twist.h>
@@ -63,15 +64,16 @@ PrescribedSolver::PrescribedSolver(const Surface& source, const Constraints& con
       corners_(find_corners(source_, boundary_)),
       poles_(problem_, boundary_, corners_, options_) {
     if (prepared_.split) warnings_.push_back(prepared_.split_warning("prescribed"));
-    ProblemChart charts = chart_of_problem(source_, boundary_, corners_, wanted_.outer_loop, problem_.solver());
+    ProblemChart charts = chart_of_problem(source_, boundary_, corners_, wanted_.outer_loop, problem_.solver(),
+                                           shape_of(source_, options_.shapes));
     other_factorizations_ += charts.chart.factorizations;
-    warnings_.insert(warnings_.end(), charts.chart.warnings.begin(), charts.chart.warnings.end());
+    append(warnings_, charts.chart.warnings);
     if (options_.slack > 0) take_slack(charts.chart);
     state_ = poles_.choose(std::move(charts), has_plain_start());
     if (source_.topology.boundary_loops.size() > 1)
         paths_ = loop_paths(source_, problem_.chart().vertices, wanted_.outer_loop);
     choose_start();
-    if (!obstacle.empty()) warnings_.push_back(obstacle);
+    if (!obstacle.empty()) warnings_.push_back({WarningKind::pieces, obstacle});
 }
 
 /// Moves the boundary points as far as they may.
@@ -111,10 +113,11 @@ void PrescribedSolver::choose_start() {
 /// Gives up the start that was asked for: a map so folded that the class of μ means nothing leads nowhere.
 void PrescribedSolver::start_again() {
     const int folds = folded_samples(beltrami_coefficient(source_.operators, found_.map));
-    warnings_.push_back("from the start that was given the iteration ended with " + std::to_string(folds) +
-                        " flipped faces; the map comes from the " +
-                        (wanted_.waypoints || !wanted_.turns.empty() ? "start without it" : "harmonic start") +
-                        ", whose homotopy class may be another");
+    warnings_.push_back(
+        {WarningKind::start, "from the start that was given the iteration ended with " + std::to_string(folds) +
+                                 " flipped faces; the map comes from the " +
+                                 (wanted_.waypoints || !wanted_.turns.empty() ? "start without it" : "harmonic start") +
+                                 ", whose homotopy class may be another"});
     options_.start.reset();
     state_ = {};
     before_evening_.reset();
@@ -293,7 +296,7 @@ ExtremalMap PrescribedSolver::record() const {
     record_bounds(result);
     record_corners(result);
     result.bounds.push_back(
-        {"mesh_harmonic", mesh_harmonic_bound(source_.operators, result.harmonic), Bound::Of::mesh, true});
+        {Bound::Kind::mesh_harmonic, mesh_harmonic_bound(source_.operators, result.harmonic), Bound::Of::mesh, true});
     record_attained(result);
     record_shortcomings(result);
     record_proofs(source_, boundary_, options_, result);
@@ -311,7 +314,8 @@ void PrescribedSolver::record_homotopy(ExtremalMap& result) const {
                         "the hole of loop " + std::to_string(hole.loop) +
                             " has lost its turns: " + std::to_string(wanted_.turns[hole.loop]) +
                             " were wanted, the map has " + std::to_string(hole.turns),
-                        "the mesh is too coarse to hold them: refine it, or ask for fewer", {hole.loop});
+                        "the mesh is too coarse to hold them: refine it, or ask for fewer",
+                        {Things::loops, {hole.loop}});
 }
 
 void PrescribedSolver::record_bounds(ExtremalMap& result) const {
@@ -321,8 +325,8 @@ void PrescribedSolver::record_bounds(ExtremalMap& result) const {
             InChart{metric->chart_mean(), in_chart.mean, in_chart.standard_deviation, problem_.largest_degree()};
     }
     const SolutionBounds bounds = best_bounds();
-    result.K = std::min(bounds.K, largest_dilatation(result.distortion));
-    result.k = (result.K - 1) / (result.K + 1);
+    result.K = std::min(bounds.K, result.distortion.K_max());
+    result.k = k_of(result.K);
     result.K_lower = bounds.K_lower;
     result.bounds = bounds.bounds;
     result.factorizations += bounds.factorizations;
@@ -352,9 +356,9 @@ void PrescribedSolver::record_corners(ExtremalMap& result) const {
             (!result.sharpest || corner.safe_bound > result.sharpest->safe_bound))
             result.sharpest = corner;
     if (!result.sharpest) return;
-    result.bounds.push_back({"corner", result.sharpest->safe_bound, Bound::Of::extremal, false});
+    result.bounds.push_back({Bound::Kind::corner, result.sharpest->safe_bound, Bound::Of::extremal, false});
     // Where the bracket is closed, the corner is one of the mesh's outline and not of the problem.
-    const double K_max = largest_dilatation(result.distortion);
+    const double K_max = result.distortion.K_max();
     const bool proved = std::isfinite(K_max) && !corner_decides({.safe_bound = K_max}, result.K_lower);
     if (converged_ && !proved && corner_decides(*result.sharpest, result.K)) {
         result.termination = Termination::not_teichmuller;

@@ -58,7 +58,7 @@ class PrescribedSolver final : public ProblemSolver {
     std::vector<BoundaryCorner> corners_;
     PoleChoice poles_;
     std::vector<LoopPath> paths_;  // along which turns are counted
-    std::vector<std::string> warnings_;
+    Warnings warnings_;
 
     std::optional<SlackReport> slack_;
     BoundaryCondition given_boundary_;  // where there is slack

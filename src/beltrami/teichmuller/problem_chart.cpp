@@ -54,12 +54,13 @@ bool nothing_inside(const Surface& source, const BoundaryCondition& boundary) {
 }  // namespace
 
 ProblemChart chart_of_problem(const Surface& source, const BoundaryCondition& boundary,
-                              const std::vector<BoundaryCorner>& corners, int outer_loop,
-                              const BeltramiSolver& solver) {
+                              const std::vector<BoundaryCorner>& corners, int outer_loop, const BeltramiSolver& solver,
+                              const Shape* shape) {
     const bool own_coordinates = outer_loop == 0 && source.in_plane();
     if (own_coordinates && few_sharp_corners(corners, outer_loop) && !outer_loop_is_round(source))
         return {plane_chart(source), {}};
-    ProblemChart result{domain_chart(source, outer_loop, nothing_inside(source, boundary) ? &solver : nullptr), {}};
+    const BeltramiSolver* dirichlet = nothing_inside(source, boundary) ? &solver : nullptr;
+    ProblemChart result{shape ? shape->chart(outer_loop, dirichlet) : domain_chart(source, outer_loop, dirichlet), {}};
     if (!result.chart.exact && own_coordinates && far_from_conformal(source, result.chart)) {
         result.instead = plane_chart(source);
         result.instead->factorizations = result.chart.factorizations;

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include <beltrami/charts/chart.h>
+#include <beltrami/charts/shape.h>
 #include <beltrami/constraints/boundary_corners.h>
 #include <beltrami/solve/beltrami_solver.h>
 
@@ -20,8 +20,10 @@ struct ProblemChart {
 /// where its outer loop is a polygon of few sharp corners.
 /// @param corners of the source and its boundary values
 /// @param solver  of the problem, factorised for the coefficient 0
+/// @param shape   the source with its charts; null: there is none
 /// @throw Error as domain_chart
 ProblemChart chart_of_problem(const Surface& source, const BoundaryCondition& boundary,
-                              const std::vector<BoundaryCorner>& corners, int outer_loop, const BeltramiSolver& solver);
+                              const std::vector<BoundaryCorner>& corners, int outer_loop, const BeltramiSolver& solver,
+                              const Shape* shape = nullptr);
 
 }  // namespace beltrami

@@ -25,21 +25,22 @@ void record_residual(const BoundaryCondition& boundary, ExtremalMap& result) {
 }
 
 void record_attained(ExtremalMap& result) {
-    result.K_max = largest_dilatation(result.distortion);
-    if (std::isfinite(result.K_max)) result.bounds.push_back({"attained", result.K_max, Bound::Of::extremal, true});
+    result.K_max = result.distortion.K_max();
+    if (std::isfinite(result.K_max))
+        result.bounds.push_back({Bound::Kind::attained, result.K_max, Bound::Of::extremal, true});
 }
 
 void record_sliding_bounds(const ReichStrebel& integrals, double k, ExtremalMap& result) {
-    result.K = std::min(integrals.valid ? integrals.estimate : dilatation(k), largest_dilatation(result.distortion));
-    result.k = (result.K - 1) / (result.K + 1);
+    result.K = std::min(integrals.valid ? integrals.estimate : dilatation(k), result.distortion.K_max());
+    result.k = k_of(result.K);
     if (integrals.valid) {
         result.K_lower = std::max(1.0, integrals.lower);
         result.K_upper = integrals.upper;
         // φ is real along circles, the mesh ends at their chords, and μ is not tangential to them: an error of
         // second order that no quadrature sees.
-        result.bounds.push_back({"reich_strebel", result.K_lower, Bound::Of::extremal, false});
-        result.bounds.push_back({"reich_strebel_estimate", result.K, Bound::Of::extremal, false});
-        result.bounds.push_back({"reich_strebel_upper", result.K_upper, Bound::Of::extremal, false});
+        result.bounds.push_back({Bound::Kind::reich_strebel, result.K_lower, Bound::Of::extremal, false});
+        result.bounds.push_back({Bound::Kind::reich_strebel_estimate, result.K, Bound::Of::extremal, false});
+        result.bounds.push_back({Bound::Kind::reich_strebel_upper, result.K_upper, Bound::Of::extremal, false});
     }
     record_attained(result);
 }
@@ -55,23 +56,20 @@ void record_space(const DifferentialSpace& space, std::optional<int> expected_di
         result.reality = laurent->fit().residual;
     }
     if (result.dimension != result.expected_dimension)
-        result.warnings.push_back("the space of differentials has dimension " + std::to_string(result.dimension) +
-                                  ", theory says " + std::to_string(result.expected_dimension));
+        result.warnings.push_back({WarningKind::differentials, "the space of differentials has dimension " +
+                                                                   std::to_string(result.dimension) + ", theory says " +
+                                                                   std::to_string(result.expected_dimension)});
 }
 
 void record_shortcomings(ExtremalMap& result) {
-    if (!result.distortion.flipped.empty())
-        result.warnings.push_back("flipped faces in the result: " + std::to_string(result.distortion.flipped.size()) +
-                                  "; it is not one-to-one there" +
-                                  (result.K_lower > 1 ? "" : " and no lower bound can be given"));
-    if (result.termination == Termination::iteration_limit)
-        result.warnings.push_back("stopped after " + std::to_string(result.iterations) +
-                                  " iterations before k and φ settled");
+    warn_of_folds_and_limit(std::to_string(result.iterations) + " iterations before k and φ settled", result,
+                            result.K_lower > 1 ? "" : " and no lower bound can be given");
     if (result.k > kLeastRoughK &&
         std::hypot(result.distortion.standard_deviation, result.distortion.mean - result.k) > kRough * result.k)
-        result.warnings.push_back(
-            "the map is far from constant dilatation: the mesh is too coarse for its shape, or the extremal map is not "
-            "smooth; K is a rough estimate and K_lower may be far below K*");
+        result.warnings.push_back({WarningKind::rough,
+                                   "the map is far from constant dilatation: the mesh is too coarse for its shape, or "
+                                   "the extremal map is not smooth; K is a rough estimate and K_lower may be far below "
+                                   "K*"});
 }
 
 }  // namespace beltrami

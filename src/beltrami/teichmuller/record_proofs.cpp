@@ -17,8 +17,7 @@ constexpr double kErrorOfEstimate = 0.01;
 double largest_proof(const std::vector<Bound>& bounds) {
     double K = 1;
     for (const Bound& bound : bounds)
-        if (bound.rigorous && bound.of == Bound::Of::extremal && bound.kind != "attained" && bound.kind != "verified")
-            K = std::max(K, bound.K);
+        if (bound.proves_from_below()) K = std::max(K, bound.K);
     return K;
 }
 
@@ -28,12 +27,13 @@ void raise_to_proofs(ExtremalMap& result) {
     const double found = result.K;
     if (!(found < result.K_lower_proved)) return;
     result.K = result.K_lower_proved;
-    result.k = (result.K - 1) / (result.K + 1);
+    result.k = k_of(result.K);
     if (!(found < (1 - kErrorOfEstimate) * result.K)) return;
     if (result.termination == Termination::converged) result.termination = Termination::below_bound;
-    result.warnings.push_back("the iteration ended with K = " + std::to_string(found) +
-                              ", but no map with these boundary values has less than " + std::to_string(result.K) +
-                              ": the differentials at hand do not show the extremal map; a finer mesh would");
+    result.warnings.push_back({WarningKind::below_bound,
+                               "the iteration ended with K = " + std::to_string(found) +
+                                   ", but no map with these boundary values has less than " + std::to_string(result.K) +
+                                   ": the differentials at hand do not show the extremal map; a finer mesh would"});
 }
 
 void record_proofs(const Surface& source, const BoundaryCondition& boundary, const ExtremalOptions& options,

@@ -82,7 +82,8 @@ std::vector<Place> places_of(const Surface& source, const MixedBoundary& boundar
                              : "inside") +
                     " the image of boundary loop " + std::to_string(loop) +
                     (outer ? ", which encloses all others" : ""),
-                "a one-to-one map keeps images inside the outer loop's and outside those of the holes", {place.vertex});
+                "a one-to-one map keeps images inside the outer loop's and outside those of the holes",
+                {Things::vertices, {place.vertex}});
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include <beltrami/teichmuller/sliding_problem.h>
 
+#include <beltrami/charts/shape.h>
+
 namespace beltrami {
 
 namespace {
@@ -7,12 +9,21 @@ namespace {
 /// A hole whose centre is nearer to that of the disk says nothing about directions.
 constexpr double kOffCentre = 1e-3;
 
+/// The circle domain of a source, that of its shape if there is one.
+/// @param mapped the source without bridges
+CircleDomainChart circles_of(const Surface& source, const Surface& mapped, int outer_loop,
+                             const std::vector<const Shape*>& shapes) {
+    const Shape* shape = shape_of(source, shapes);
+    return shape ? shape->without_bridges().circles(outer_loop) : circle_domain_chart(mapped, outer_loop);
+}
+
 }  // namespace
 
-SlidingProblem::SlidingProblem(const Surface& given, PreparedProblem prepared, int outer_loop, const char* kind)
+SlidingProblem::SlidingProblem(const Surface& given, PreparedProblem prepared, int outer_loop, const char* kind,
+                               const std::vector<const Shape*>& shapes)
     : prepared_(std::move(prepared)),
       source_(prepared_.surface_of(given)),
-      domain_(circle_domain_chart(source_, outer_loop)),
+      domain_(circles_of(given, source_, outer_loop, shapes)),
       kind_(kind) {}
 
 double SlidingProblem::phase() const {
@@ -21,10 +32,10 @@ double SlidingProblem::phase() const {
     return std::arg(domain_.chart.vertices[source_.topology.boundary_loops[outer_loop()][0]]);
 }
 
-std::vector<std::string> SlidingProblem::warnings() const {
-    std::vector<std::string> result;
+Warnings SlidingProblem::warnings() const {
+    Warnings result;
     if (prepared_.split) result.push_back(prepared_.split_warning(kind_));
-    result.insert(result.end(), domain_.chart.warnings.begin(), domain_.chart.warnings.end());
+    append(result, domain_.chart.warnings);
     return result;
 }
 

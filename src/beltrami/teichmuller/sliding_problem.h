@@ -23,7 +23,7 @@ class SlidingProblem {
     /// Rotation of the c-step's grid, tied to the source's shape.
     double phase() const;
     /// What the result says about split and chart.
-    std::vector<std::string> warnings() const;
+    Warnings warnings() const;
     /// Of the charts.
     virtual int factorizations() const { return domain_.factorizations; }
 
@@ -32,6 +32,9 @@ class SlidingProblem {
     /// Where to begin. What conformal maps of the source to itself would move is held.
     /// @throw Error bad_boundary, not_solved
     virtual SlidingStart start() const = 0;
+    /// Whether the start is one that was given; start() makes another one after that was forgotten.
+    virtual bool has_given_start() const { return false; }
+    virtual void forget_given_start() {}
     /// @param start  of which the derivative says where vertices may move that are held to lines
     /// @param solver of the f-step, which may be used
     virtual AdmissibleDifferentials differentials(const Eigen::VectorXcd& start, BeltramiSolver& solver) const = 0;
@@ -54,7 +57,9 @@ class SlidingProblem {
     /// @param given    kept by reference
     /// @param prepared given without edges across it between boundary vertices
     /// @param kind     of the vertices between which edges were split
-    SlidingProblem(const Surface& given, PreparedProblem prepared, int outer_loop, const char* kind);
+    /// @param shapes   whose charts are taken where the source is one of theirs
+    SlidingProblem(const Surface& given, PreparedProblem prepared, int outer_loop, const char* kind,
+                   const std::vector<const Shape*>& shapes = {});
 
     int outer_loop() const { return domain_.outer_loop(); }
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
+#include <beltrami/base/error.h>
 #include <beltrami/starts/sliding_loops.h>
 #include <beltrami/teichmuller/hamilton_options.h>
 #include <beltrami/teichmuller/record.h>
@@ -23,6 +25,13 @@ constexpr double kSettled = 1e-9;
 constexpr double kLastMovement = 1e-7;
 /// Newton steps of the boundary where there are no differentials.
 constexpr int kConformalSteps = 100;
+
+/// Whether a map has fewer folds than another, or as many and has settled while the other has not.
+bool better_end(const ExtremalMap& a, const ExtremalMap& b) {
+    const std::size_t folds = a.distortion.flipped.size(), others = b.distortion.flipped.size();
+    if (folds != others) return folds < others;
+    return a.termination == Termination::converged && b.termination != Termination::converged;
+}
 
 /// Whether an arc of a loop is prescribed, not only single vertices.
 bool has_prescribed_arc(const std::vector<int>& loop, const std::vector<char>& is_prescribed) {
@@ -55,7 +64,7 @@ void SlidingSolver::begin() {
     phi_ = problem_->differentials(begun_.start, step_->lend_solver());
     begun_.space = phi_.kind;
     begun_.dimension_gap = phi_.gap;
-    begun_.warnings.insert(begun_.warnings.end(), phi_.warnings.begin(), phi_.warnings.end());
+    append(begun_.warnings, phi_.warnings);
     chart_ = std::make_shared<Chart>(std::move(phi_.chart));
     if (phi_.space)
         coefficient_step_.emplace(source(), *chart_, phi_.singularities, problem_->phase(), options_.cluster_count);
@@ -68,20 +77,66 @@ ExtremalMap SlidingSolver::solve() {
         result.factorizations += problem_->factorizations();
         result.warnings = problem_->warnings();
     } else {
-        begin();
-        result = begun_;
-        if (coefficient_step_) {
-            finish(settle(result), result);
-        } else {
-            solve_conformal(result);
-        }
-        result.factorizations += step_->factorization_count();
-        record_conditions(result);
+        result = problem_->has_given_start() ? settled_from_given_start() : settled();
     }
     record_shortcomings(result);
     result.split = problem_->split();
     problem_->record(result);
     return result;
+}
+
+/// Start, iteration, finish.
+ExtremalMap SlidingSolver::settled() {
+    begin();
+    ExtremalMap result = begun_;
+    if (coefficient_step_) {
+        finish(settle(result), result);
+    } else {
+        solve_conformal(result);
+    }
+    result.factorizations += step_->factorization_count();
+    record_conditions(result);
+    return result;
+}
+
+/// The same from the start that was given, or, where that leads nowhere, without it.
+ExtremalMap SlidingSolver::settled_from_given_start() {
+    std::optional<ExtremalMap> first;
+    std::string end = "did not settle";
+    try {
+        first = settled();
+        const std::size_t folds = first->distortion.flipped.size();
+        if (folds == 0 && first->termination == Termination::converged) return std::move(*first);
+        if (folds > 0) end = "ended with " + std::to_string(folds) + " flipped faces";
+    } catch (const Error& error) {
+        if (error.cause() != Cause::not_solved) throw;
+        end = std::string("failed (") + error.what() + ")";
+    }
+    begin_without_start();
+    ExtremalMap second = settled();
+    if (first) {
+        const bool second_is_kept = better_end(second, *first);
+        ExtremalMap& kept = second_is_kept ? second : *first;
+        const ExtremalMap& other = second_is_kept ? *first : second;
+        kept.iterations += other.iterations;
+        kept.factorizations += other.factorizations;
+        if (!second_is_kept) return kept;
+    }
+    second.warnings.push_back(
+        {WarningKind::start, "from the start that was given the iteration " + end +
+                                 "; the map comes from the start without it, whose homotopy class may be another"});
+    return second;
+}
+
+/// Forgets the start that was given, and all that came of it.
+void SlidingSolver::begin_without_start() {
+    problem_->forget_given_start();
+    coefficient_step_.reset();
+    step_.reset();
+    boundary_.reset();
+    chart_.reset();
+    phi_ = {};
+    state_ = {};
 }
 
 ExtremalSolver::Update SlidingSolver::update(const std::vector<Complex>& images, int max_iterations) {
@@ -186,7 +241,7 @@ void SlidingSolver::solve_conformal(ExtremalMap& result) {
     result.map = step_->map();
     result.distortion = distortion(source().operators, result.map);
     result.phi = Eigen::VectorXcd::Zero(source().operators.sample_count());
-    result.K_max = largest_dilatation(result.distortion);
+    result.K_max = result.distortion.K_max();
 }
 
 /// How far the map obeys its conditions.

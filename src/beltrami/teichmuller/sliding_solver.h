@@ -20,6 +20,9 @@ class SlidingSolver final : public ProblemSolver {
   private:
     const Surface& source() const { return problem_->source(); }
     bool begun() const { return chart_ != nullptr; }
+    ExtremalMap settled();
+    ExtremalMap settled_from_given_start();
+    void begin_without_start();
     void begin();
     void move(const std::vector<Complex>& images);
     HamiltonIteration iterate(HamiltonIteration::Options how);

@@ -228,11 +228,12 @@ FoldFreeMap fold_free_map(const Surface& source, const std::vector<Freedom>& fre
     for (Eigen::Index s = 0; s < nu.size(); ++s)
         if (!(std::abs(nu[s]) < 1))
             throw Error(Cause::bad_option, "|nu| is not below 1 on face " + std::to_string(operators.faces[s]), "",
-                        {operators.faces[s]});
+                        {Things::faces, {operators.faces[s]}});
     for (std::size_t v = 0; v < freedoms.size(); ++v)
         if (freedoms[v] == Freedom::sliding)
             throw Error(Cause::bad_boundary, "vertex " + std::to_string(v) + " slides",
-                        "a fold-free solve knows only free and fixed vertices", {static_cast<int>(v)});
+                        "a fold-free solve knows only free and fixed vertices",
+                        {Things::vertices, {static_cast<int>(v)}});
     if (!start.allFinite()) throw Error(Cause::bad_boundary, "the start map is not finite");
 
     std::vector<Freedom> held = freedoms;

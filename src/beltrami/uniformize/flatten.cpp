@@ -40,7 +40,7 @@ Topology require_disk(const Mesh& surface) {
         throw Error(
             Cause::bad_mesh,
             "the surface has " + std::to_string(shape.boundary_loops.size()) + " boundary loops and flatten takes one",
-            "fill the holes or cut the surface into a disk", shape.boundary_loops[1]);
+            "fill the holes or cut the surface into a disk", {Things::vertices, shape.boundary_loops[1]});
     if (shape.genus != 0)
         throw Error(Cause::bad_mesh, "the surface has genus " + std::to_string(shape.genus),
                     "cut its handles open before flattening");
@@ -57,7 +57,7 @@ void require_corners(const Mesh& surface, const Positions& corners) {
     for (int f = 0; f < surface.face_count(); ++f)
         if (!corners.middleRows(surface.faces.first_corner(f), surface.faces.degree(f)).allFinite())
             throw Error(Cause::bad_mesh, "face " + std::to_string(f) + " has a corner whose place is not finite",
-                        "repair the positions or the metric", {f});
+                        "repair the positions or the metric", {Things::faces, {f}});
 }
 
 /// Angle sums that the iteration has to reach, and which vertices may be scaled.
@@ -88,7 +88,7 @@ ScaleFactorProblem problem_of(const Mesh& surface, const std::vector<int>& loop,
         if (!(angles[i] > 0) || !std::isfinite(angles[i]))
             throw Error(Cause::bad_boundary,
                         "the boundary angle at vertex " + std::to_string(loop[i]) + " is not positive",
-                        "every interior angle of the image must be", {loop[i]});
+                        "every interior angle of the image must be", {Things::vertices, {loop[i]}});
         excess += angles[i];
     }
     if (!(std::abs(excess) <= kAngleSumSlack))

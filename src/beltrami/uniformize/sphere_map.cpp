@@ -41,7 +41,7 @@ void require_sphere(const Surface& source) {
         throw Error(Cause::bad_mesh,
                     "the surface is open, with " + std::to_string(shape.boundary_loops.size()) +
                         " boundary loops, and only a closed one goes to the sphere",
-                    "fill its holes, or map it to a disk", shape.boundary_loops[0]);
+                    "fill its holes, or map it to a disk", {Things::vertices, shape.boundary_loops[0]});
     if (shape.genus != 0)
         throw Error(Cause::bad_mesh,
                     "the surface has genus " + std::to_string(shape.genus) + " and the sphere has none",
@@ -112,7 +112,8 @@ class Mapping {
             result_.method = SphereMethod::least_distortion;
             result_.route = SphereRoute::fallback;
             if (found)
-                result_.warnings.push_back("the map of least distortion on this mesh was taken instead: " + reason);
+                result_.warnings.push_back(
+                    {WarningKind::fallback, "the map of least distortion on this mesh was taken instead: " + reason});
         }
         if (!found && !accept_turned_in()) refuse();
         finish();
@@ -133,7 +134,7 @@ class Mapping {
                 throw Error(Cause::bad_option,
                             "vertex " + std::to_string(*options_.ideal_vertex) +
                                 " cannot be sent to infinity: its star touches itself, or it is none of the surface",
-                            "choose another one, or none", {*options_.ideal_vertex});
+                            "choose another one, or none", {Things::vertices, {*options_.ideal_vertex}});
             candidates = {*options_.ideal_vertex};
         }
         if (candidates.empty()) {
@@ -201,11 +202,14 @@ class Mapping {
     /// The first map found whose quads turn in at corners but do not fold where they are measured.
     bool accept_turned_in() {
         if (!turned_in_) return false;
-        std::vector<std::string> warnings = std::move(result_.warnings);
+        Warnings warnings = std::move(result_.warnings);
         result_ = std::move(*turned_in_);
         result_.warnings = std::move(warnings);
-        result_.warnings.push_back(std::to_string(faces_.flipped(result_.positions).size()) +
-                                   " quads turn in at a corner on the sphere; as triangles none is flipped");
+        const std::vector<int> turned = faces_.flipped(result_.positions);
+        result_.warnings.push_back(
+            {WarningKind::flipped_faces,
+             std::to_string(turned.size()) + " quads turn in at a corner on the sphere; as triangles none is flipped",
+             {Things::faces, turned}});
         return true;
     }
 
@@ -300,7 +304,7 @@ class Mapping {
         throw Error(Cause::not_solved, sentence,
                     result_.unresolved.empty() ? "refine the mesh where these faces are"
                                                : "cut thin limbs off, or map them on their own",
-                    best_flipped_);
+                    {Things::faces, best_flipped_});
     }
 
     void finish() {
@@ -308,20 +312,26 @@ class Mapping {
             if (!(areas_[v] > 0)) result_.positions.row(v) << 0, 0, 1;
         result_.distortion = distortion(source_.operators, result_.positions, result_.positions);
         if (const std::vector<int>& flipped = result_.distortion.flipped; !flipped.empty())
-            result_.warnings.push_back(std::to_string(flipped.size()) + " faces, the first is face " +
-                                       std::to_string(flipped[0]) +
-                                       ", keep their orientation on the sphere, but not at every point where |mu| is "
-                                       "measured: they are quads that turn in, or nearly collapsed");
-        find_unresolved(result_.positions);
-        if (!result_.unresolved.empty()) result_.warnings.push_back(unresolved_sentence());
-        if (result_.moved > 0)
-            result_.warnings.push_back(std::to_string(result_.moved) +
-                                       " vertices were moved to turn faces up that came out flipped between the "
-                                       "conformal images");
-        if (result_.centre_distance > kOffCentre)
             result_.warnings.push_back(
-                "the centre of mass is off the sphere's centre: nearly half of the surface "
-                "comes to one point");
+                {WarningKind::flipped_faces,
+                 std::to_string(flipped.size()) + " faces, the first is face " + std::to_string(flipped[0]) +
+                     ", keep their orientation on the sphere, but not at every point where |mu| is measured: they are "
+                     "quads that turn in, or nearly collapsed",
+                 {Things::faces, flipped}});
+        find_unresolved(result_.positions);
+        if (!result_.unresolved.empty())
+            result_.warnings.push_back(
+                {WarningKind::unresolved_faces, unresolved_sentence(), {Things::faces, result_.unresolved}});
+        if (result_.moved > 0)
+            result_.warnings.push_back(
+                {WarningKind::unfolded,
+                 std::to_string(result_.moved) +
+                     " vertices were moved to turn faces up that came out flipped, as edges were "
+                     "flipped on the way"});
+        if (result_.centre_distance > kOffCentre)
+            result_.warnings.push_back({WarningKind::off_centre,
+                                        "the centre of mass is off the sphere's centre: nearly half of the surface "
+                                        "comes to one point"});
     }
 
     const Surface& source_;
@@ -387,9 +397,11 @@ SphereMap sphere_map(const Mesh& polygons, const SphereMapOptions& options) {
         result = sphere_map(Surface(std::move(split.mesh)), options);
     } catch (const Error& error) {
         if (error.cause() != Cause::not_solved) throw;
-        throw Error(Cause::not_solved, error.what(), "", renamed(error.indices()));
+        throw Error(Cause::not_solved, error.what(), "", {Things::faces, renamed(error.indices())});
     }
     result.unresolved = renamed(std::move(result.unresolved));
+    for (Warning& warning : result.warnings)
+        if (warning.where.of == Things::faces) warning.where.indices = renamed(std::move(warning.where.indices));
     return result;
 }
 

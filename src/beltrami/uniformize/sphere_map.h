@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <beltrami/base/warning.h>
 #include <beltrami/operators/distortion.h>
 #include <beltrami/operators/surface.h>
 
@@ -61,7 +62,7 @@ struct SphereMap {
     /// tiny; ascending. And their share of the source's area.
     std::vector<int> unresolved;
     double unresolved_area = 0;
-    std::vector<std::string> warnings;
+    Warnings warnings;
 };
 
 /// The conformal map of a closed surface of genus 0 to the round sphere, in the sense of discrete conformal

@@ -77,7 +77,8 @@ TriangleMetric triangle_metric(const Mesh& surface, const Topology& shape, const
             "the metric gives face " + std::to_string(broken[0]) +
             (broken.size() > 1 ? " and " + std::to_string(broken.size() - 1) + " more" : "") +
             " edges so unlike those of the neighbours that the mean lengths violate the triangle inequality";
-        throw Error(Cause::bad_mesh, sentence, "bring faces that share an edge to the same scale", std::move(broken));
+        throw Error(Cause::bad_mesh, sentence, "bring faces that share an edge to the same scale",
+                    {Things::faces, std::move(broken)});
     }
     metric.lengthened = missing;
     metric.log_unit = std::log(mean);

@@ -66,7 +66,7 @@ double arap_energy(const Surface& source, const Eigen::VectorXcd& f) {
 
 bool mentions(const BaselineMap& result, const std::string& word) {
     return std::any_of(result.warnings.begin(), result.warnings.end(),
-                       [&](const std::string& warning) { return warning.find(word) != std::string::npos; });
+                       [&](const Warning& warning) { return warning.sentence.find(word) != std::string::npos; });
 }
 
 // ---- all methods ----------------------------------------------------------------------------------------------------

@@ -43,7 +43,7 @@ HarmonicForms::Form projected(const Surface& source, HarmonicForms& forms, const
 
 TEST(HarmonicForms, ObeyThePapersConstraintsAndFormula) {
     const Surface source(annulus(0.4, 1, 30));
-    std::vector<std::string> warnings;
+    Warnings warnings;
     HarmonicForms forms(source, warnings);
     EXPECT_TRUE(warnings.empty());
     ASSERT_EQ(forms.hole_count(), 1);
@@ -88,7 +88,7 @@ TEST(HarmonicForms, ApproximateHolomorphicFunctionsWithEveryPeriod) {
     double before = 0;
     for (const int around : {24, 48, 96}) {
         const Surface source(annulus(0.4, 1, around));
-        std::vector<std::string> warnings;
+        Warnings warnings;
         HarmonicForms forms(source, warnings);
         const Eigen::VectorXcd exact = centroids(source).unaryExpr(phi);
         const Eigen::VectorXcd found = forms.values(projected(source, forms, exact));
@@ -103,7 +103,7 @@ TEST(HarmonicForms, ApproximateHolomorphicFunctionsWithEveryPeriod) {
 
 TEST(HarmonicForms, FitIsStationaryForUnevenWeights) {
     const Surface source(annulus(0.4, 1, 30));
-    std::vector<std::string> warnings;
+    Warnings warnings;
     HarmonicForms forms(source, warnings);
     const Eigen::VectorXcd c = centroids(source);
     Eigen::VectorXd weights(c.size());

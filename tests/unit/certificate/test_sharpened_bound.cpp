@@ -148,7 +148,7 @@ TEST(SharpenedBound, QuadsAndSurfacesInSpaceAreCutAndNotProved) {
     const Surface bump(test::bump(1500));
     const ExtremalMap curved = extremal_map(bump, test::boundary_values(bump, test::exact_composition), options);
     EXPECT_LT(curved.K - curved.K_lower, 0.01);
-    for (const Bound& bound : curved.bounds) EXPECT_FALSE(bound.kind == "reich_strebel" && bound.rigorous);
+    for (const Bound& bound : curved.bounds) EXPECT_FALSE(bound.kind == Bound::Kind::reich_strebel && bound.rigorous);
 }
 
 TEST(SharpenedBound, RefinedProblemsAreTheSameProblem) {
@@ -249,14 +249,15 @@ TEST(SharpenedBound, OfExtremalMapsOfLargeDilatation) {
         EXPECT_LE(found.K, found.K_max);
         bool averaged = false;
         for (const Bound& bound : found.bounds) {
-            if (bound.kind == "averaged_estimate") {
+            if (bound.kind == Bound::Kind::averaged_estimate) {
                 averaged = true;
                 EXPECT_FALSE(bound.rigorous);
                 EXPECT_NEAR(bound.K / map.K(), 1, 0.03);
             }
-            EXPECT_EQ(bound.rigorous, bound.kind == "reich_strebel" || bound.kind == "edge_corner" ||
-                                          bound.kind == "moduli" || bound.kind == "pair" ||
-                                          bound.of == Bound::Of::mesh || bound.kind == "attained");
+            EXPECT_EQ(bound.rigorous, bound.kind == Bound::Kind::reich_strebel ||
+                                          bound.kind == Bound::Kind::edge_corner || bound.kind == Bound::Kind::moduli ||
+                                          bound.kind == Bound::Kind::pair || bound.of == Bound::Of::mesh ||
+                                          bound.kind == Bound::Kind::attained);
         }
         EXPECT_TRUE(averaged);
         EXPECT_EQ(found.homotopy.holes[0].turns, turns);

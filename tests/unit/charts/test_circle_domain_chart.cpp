@@ -346,7 +346,7 @@ TEST(CircleDomainChart, UnfoldsWhatTheHarmonicMapTurnsOver) {
     EXPECT_TRUE(chart.pinched.empty());
     const auto& warnings = chart.chart.warnings;
     EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(),
-                            [](const std::string& w) { return w.find("unfolded") != std::string::npos; }));
+                            [](const Warning& w) { return w.sentence.find("unfolded") != std::string::npos; }));
     EXPECT_LT(chart.mean_mu, 0.08);
 }
 

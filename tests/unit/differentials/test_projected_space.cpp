@@ -317,7 +317,7 @@ TEST(ProjectedSpace, CornersAreNoticed) {
     const ProjectedSpace space = projected_space(surface, chart);
     EXPECT_LT(space.gap, 30);
     ASSERT_EQ(space.warnings.size(), 1u);
-    EXPECT_NE(space.warnings[0].find("1 eigenvalue"), std::string::npos) << space.warnings[0];
+    EXPECT_NE(space.warnings[0].sentence.find("1 eigenvalue"), std::string::npos) << space.warnings[0].sentence;
 }
 
 TEST(ProjectedSpace, RefusesImpossibleOptions) {

@@ -37,7 +37,7 @@ TEST(CoefficientFile, OfFacesThatAreCutMeanNothing) {
     EXPECT_EQ(loaded.mesh.face_count(), 5);  // that with five corners is three triangles
     EXPECT_FALSE(loaded.face_mu);
     ASSERT_FALSE(loaded.warnings.empty());
-    EXPECT_NE(loaded.warnings.back().find("coefficients of the faces go"), std::string::npos);
+    EXPECT_NE(loaded.warnings.back().sentence.find("coefficients of the faces go"), std::string::npos);
 }
 
 TEST(CoefficientFile, LinesComeInAnyOrder) {

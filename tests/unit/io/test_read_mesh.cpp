@@ -72,8 +72,8 @@ TEST(ReadMesh, SharedMeshesHaveTheCountsTheyAreListedWith) {
             EXPECT_EQ(loaded.mesh.face_count(), faces);
         } else {
             EXPECT_GT(loaded.mesh.face_count(), faces);
-            for (const std::string& warning : loaded.warnings)
-                EXPECT_NE(warning.find("cut into"), std::string::npos) << warning;
+            for (const Warning& warning : loaded.warnings)
+                EXPECT_NE(warning.sentence.find("cut into"), std::string::npos) << warning.sentence;
         }
         ++read;
     }

@@ -138,12 +138,13 @@ TEST(ReadObj, LargeFacesAreCutIntoTrianglesAndNamed) {
     EXPECT_EQ(one.attributes.states[one.attributes.face_states[2]].at("usemtl"), "a");
     EXPECT_EQ(one.attributes.states[one.attributes.face_states[3]].at("usemtl"), "b");
     ASSERT_EQ(one.warnings.size(), 1U);
-    EXPECT_NE(one.warnings[0].find("t.obj:8: a face with 5 corners"), std::string::npos) << one.warnings[0];
+    EXPECT_NE(one.warnings[0].sentence.find("t.obj:8: a face with 5 corners"), std::string::npos)
+        << one.warnings[0].sentence;
 
     for (int i = 0; i < 100; ++i) text += "f 1 2 3 4 5 1\n";
     const LoadedMesh many = read_obj(text, "t.obj");
     ASSERT_EQ(many.warnings.size(), 11U);
-    EXPECT_NE(many.warnings[10].find("91 further faces"), std::string::npos) << many.warnings[10];
+    EXPECT_NE(many.warnings[10].sentence.find("91 further faces"), std::string::npos) << many.warnings[10].sentence;
 }
 
 TEST(ReadObj, ErrorsNameFileAndLine) {

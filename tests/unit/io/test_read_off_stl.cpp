@@ -99,7 +99,7 @@ TEST(ReadOff, LargeFacesAreCutIntoTriangles) {
     EXPECT_EQ(loaded.mesh.face_count(), 4);
     EXPECT_EQ(corners_of(loaded.mesh, 3), (std::vector{0, 1, 2}));
     ASSERT_EQ(loaded.warnings.size(), 1U);
-    EXPECT_TRUE(loaded.warnings[0].starts_with("t.off:7:")) << loaded.warnings[0];
+    EXPECT_TRUE(loaded.warnings[0].sentence.starts_with("t.off:7:")) << loaded.warnings[0].sentence;
 }
 
 TEST(ReadOff, ErrorsNameFileAndLine) {

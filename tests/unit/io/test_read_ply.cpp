@@ -228,7 +228,7 @@ TEST(ReadPly, LargeFacesAreNamedByTheirByte) {
     const LoadedMesh loaded = read_ply(bytes.str(), "t.ply");
     EXPECT_EQ(loaded.mesh.face_count(), 3);
     ASSERT_EQ(loaded.warnings.size(), 1U);
-    EXPECT_NE(loaded.warnings[0].find("byte"), std::string::npos) << loaded.warnings[0];
+    EXPECT_NE(loaded.warnings[0].sentence.find("byte"), std::string::npos) << loaded.warnings[0].sentence;
 }
 
 }  // namespace beltrami::io_tests

@@ -23,8 +23,9 @@ void expect_consistent(const Certification& c, double gap) {
     EXPECT_EQ(c.gap, c.K_upper / c.result.K_lower_proved - 1);
     double best = 1;
     for (const Bound& bound : c.result.bounds)
-        if (bound.kind == "reich_strebel" ||
-            (bound.rigorous && bound.of == Bound::Of::extremal && bound.kind != "attained" && bound.kind != "verified"))
+        if (bound.kind == Bound::Kind::reich_strebel ||
+            (bound.rigorous && bound.of == Bound::Of::extremal && bound.kind != Bound::Kind::attained &&
+             bound.kind != Bound::Kind::verified))
             best = std::max(best, bound.K);
     EXPECT_EQ(best, c.result.K_lower);
 }
@@ -53,7 +54,7 @@ TEST(Certify, EstimatesAreImprovedWhereNothingIsProved) {
     // The finer mesh's chart is not exact; what the given mesh proves is still told.
     int proofs = 0, estimates = 0;
     for (const Bound& bound : c.result.bounds)
-        if (bound.kind == "reich_strebel") ++(bound.rigorous ? proofs : estimates);
+        if (bound.kind == Bound::Kind::reich_strebel) ++(bound.rigorous ? proofs : estimates);
     EXPECT_EQ(proofs, 1);
     EXPECT_EQ(estimates, 1);
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <beltrami/base/effort.h>
 #include <beltrami/base/error.h>
 #include <beltrami/generate/round_domains.h>
 #include <beltrami/teichmuller/distance.h>
@@ -46,6 +47,35 @@ TEST(DistanceMatrix, NamesShapesThatAreNotAlike) {
         FAIL();
     } catch (const Error& error) {
         EXPECT_EQ(error.indices(), (std::vector<int>{0, 1}));
+    }
+}
+
+TEST(DistanceMatrix, ChartsEveryShapeOnce) {
+    std::vector<Surface> surfaces;
+    for (const double inner : {0.3, 0.4, 0.5, 0.6}) surfaces.emplace_back(annulus(inner, 1, 32));
+    const std::int64_t before = effort(Work::circle_chart);
+    const DistanceMatrix matrix = distance_matrix(surfaces);
+    EXPECT_EQ(effort(Work::circle_chart) - before, 4);
+    for (int i = 0; i < 4; ++i)
+        for (int j = i + 1; j < 4; ++j) {
+            const Distance alone = teichmueller_distance(surfaces[i], surfaces[j]);
+            EXPECT_EQ(matrix.distance(i, j), alone.distance);
+            EXPECT_EQ(matrix.lower(i, j), alone.lower);
+        }
+}
+
+TEST(DistanceMatrix, NamesTheShapeThatHasNoChart) {
+    std::vector<Surface> surfaces;
+    surfaces.emplace_back(annulus(0.5, 1, 24));
+    surfaces.emplace_back(annulus(0.4, 1, 24));
+    Correspondence wanted;
+    wanted.outer_loop = 7;
+    try {
+        distance_matrix(surfaces, wanted, {}, {}, {"one", "two"});
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.where(), (Where{Things::shapes, {0}}));
+        EXPECT_EQ(std::string(error.what()).find("one: "), 0u);
     }
 }
 

@@ -118,7 +118,7 @@ TEST(ExtremalMap, IsBetterThanItsStartAndCertified) {
     EXPECT_EQ(result.boundary_residual, 0.0);
     for (const Bound& bound : result.bounds) {
         if (bound.of == Bound::Of::extremal) {
-            EXPECT_LE(bound.K, result.K_max) << bound.kind;
+            EXPECT_LE(bound.K, result.K_max) << to_string(bound.kind);
         }
     }
     EXPECT_TRUE(result.one_to_one());

@@ -103,7 +103,8 @@ TEST(Pieces, ACurveThatTouchesItselfIsNotCut) {
     EXPECT_NEAR(map.K, 2, 1e-8);
     EXPECT_NEAR(map.K_lower, 2, 1e-8);
     EXPECT_TRUE(map.one_to_one());
-    EXPECT_NE(std::find(map.warnings.begin(), map.warnings.end(), cut.obstacle), map.warnings.end());
+    const Warning obstacle{WarningKind::pieces, cut.obstacle};
+    EXPECT_NE(std::find(map.warnings.begin(), map.warnings.end(), obstacle), map.warnings.end());
 }
 
 }  // namespace
