@@ -10,7 +10,6 @@
 #include <beltrami/base/parallel.h>
 #include <beltrami/charts/annulus_map.h>
 #include <beltrami/charts/hole_centre.h>
-#include <beltrami/mesh/planar.h>
 #include <beltrami/meshing/fill_holes.h>
 #include <beltrami/plane/circle_fit.h>
 
@@ -71,7 +70,7 @@ Moebius inversion(const CircleFit& circle, const Eigen::VectorXcd& z, const Eige
 /// Positions and derivatives by a map that is analytic on the plane of the mesh.
 template <class Map>
 void evaluate_exactly(const Surface& source, const Map& map, Chart& chart) {
-    const Eigen::VectorXcd z = planar_coordinates(source.mesh), places = at_samples(source.operators, z);
+    const Eigen::VectorXcd &z = *source.coordinate(), places = at_samples(source.operators, z);
     chart.vertices.setZero(z.size());
     chart.positions.resize(places.size());
     chart.derivatives.resize(places.size());
@@ -153,12 +152,12 @@ std::optional<Surface> turned_inside_out(const Surface& source, int outer_loop, 
     return {};
 }
 
-Chart approximate_chart(const Surface& source, int outer_loop, const Eigen::VectorXcd& z,
-                        const DomainChartOptions& options) {
+Chart approximate_chart(const Surface& source, int outer_loop, const DomainChartOptions& options) {
+    const Eigen::VectorXcd* z = source.coordinate();
     Chart filled;
     std::optional<Surface> inside_out;
-    if (source.in_plane() && outer_loop != 0) inside_out = turned_inside_out(source, outer_loop, z);
-    const bool keeps_plane = source.in_plane() && (outer_loop == 0 || inside_out);
+    if (z && outer_loop != 0) inside_out = turned_inside_out(source, outer_loop, *z);
+    const bool keeps_plane = z && (outer_loop == 0 || inside_out);
     const int hole = longest_hole(source, outer_loop);
     if (!keeps_plane && loop_size(source, hole) >= options.least_rim)
         filled = annulus_chart(source, outer_loop, hole);
@@ -259,14 +258,11 @@ Chart domain_chart(const Surface& source, int outer_loop, const BeltramiSolver* 
     if (loops.size() == 1)
         return dirichlet ? round_disk_chart(source, *dirichlet, options.disk) : round_disk_chart(source, options.disk);
 
-    Eigen::VectorXcd z;
+    const Eigen::VectorXcd* z = source.coordinate();
     std::optional<CircleFit> circle;
-    if (source.in_plane()) {
-        z = planar_coordinates(source.mesh);
-        circle = fit_circle(points_of(loops[outer_loop], z));
-    }
-    Chart chart = circle && circle->exact() ? exact_chart(source, outer_loop, *circle, z)
-                                            : approximate_chart(source, outer_loop, z, options);
+    if (z) circle = fit_circle(points_of(loops[outer_loop], *z));
+    Chart chart = circle && circle->exact() ? exact_chart(source, outer_loop, *circle, *z)
+                                            : approximate_chart(source, outer_loop, options);
     chart.outer_loop = outer_loop;
     make_holes_round(source, options, chart);
     add_holes(source, chart);
@@ -274,7 +270,7 @@ Chart domain_chart(const Surface& source, int outer_loop, const BeltramiSolver* 
 }
 
 Chart plane_chart(const Surface& source) {
-    const Eigen::VectorXcd z = planar_coordinates(source.mesh);
+    const Eigen::VectorXcd& z = *source.coordinate();
     const auto& loops = source.topology.boundary_loops;
     const std::vector<Complex> outline = points_of(loops[0], z);
     Complex centre = 0;

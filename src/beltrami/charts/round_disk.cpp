@@ -7,7 +7,6 @@
 
 #include <beltrami/charts/greens_function.h>
 #include <beltrami/charts/vertex_source.h>
-#include <beltrami/mesh/planar.h>
 #include <beltrami/plane/circle_fit.h>
 #include <beltrami/solve/dirichlet_solver.h>
 #include <beltrami/uniformize/flatten.h>
@@ -122,8 +121,8 @@ namespace {
 Eigen::VectorXcd disk_map_by_flattening(const Surface& source, const BeltramiSolver& dirichlet, ConjugateBy way,
                                         int* factorizations) {
     Eigen::VectorXcd w;
-    if (source.in_plane()) {
-        w = planar_coordinates(source.mesh);
+    if (const Eigen::VectorXcd* z = source.coordinate()) {
+        w = *z;
     } else {
         FlattenOptions options;
         options.tolerance = kFlattenTolerance;
@@ -154,12 +153,11 @@ Eigen::VectorXcd disk_map(const Surface& source, const BeltramiSolver& dirichlet
 Chart compute_chart(const Surface& source, const BeltramiSolver* dirichlet, const RoundDiskOptions& options) {
     require_disk(source);
     int factorizations = 0;
-    if (source.in_plane()) {
-        const Eigen::VectorXcd w = planar_coordinates(source.mesh);
+    if (const Eigen::VectorXcd* w = source.coordinate()) {
         std::vector<Complex> boundary;
-        for (const int v : source.topology.boundary_loops[0]) boundary.push_back(w[v]);
+        for (const int v : source.topology.boundary_loops[0]) boundary.push_back((*w)[v]);
         const CircleFit circle = fit_circle(boundary);
-        if (circle.exact()) return make_chart(source, (w.array() - circle.centre) / circle.radius, true);
+        if (circle.exact()) return make_chart(source, (w->array() - circle.centre) / circle.radius, true);
     }
     std::optional<BeltramiSolver> own;
     if (!dirichlet) {

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include <beltrami/base/parallel.h>
-#include <beltrami/mesh/planar.h>
 
 namespace beltrami {
 
@@ -58,7 +57,7 @@ class Places {
   public:
     Places(const Surface& source, const Chart& chart) : operators_(source.operators), chart_(chart) {
         analytic_ = chart.exact && chart.analytic && source.in_plane();
-        if (source.in_plane()) plane_ = planar_coordinates(source.mesh);
+        if (source.in_plane()) plane_ = *source.coordinate();
     }
 
     struct At {

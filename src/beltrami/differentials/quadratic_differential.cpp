@@ -6,7 +6,6 @@
 #include <beltrami/base/error.h>
 #include <beltrami/base/parallel.h>
 #include <beltrami/differentials/tabulated_space.h>
-#include <beltrami/mesh/planar.h>
 
 namespace beltrami {
 
@@ -81,10 +80,11 @@ QuadraticDifferential differential_of(std::shared_ptr<const DifferentialSpace> s
 
 QuadraticDifferential differential_of(const Surface& source, std::function<Complex(Complex)> phi,
                                       std::vector<int> poles) {
-    if (!source.in_plane())
+    const Eigen::VectorXcd* z = source.coordinate();
+    if (!z)
         throw Error(Cause::bad_mesh, "the source does not lie in the plane in whose coordinates φ is given",
                     "give φ at the samples instead");
-    auto chart = std::make_shared<Chart>(make_chart(source, planar_coordinates(source.mesh), true));
+    auto chart = std::make_shared<Chart>(make_chart(source, *z, true));
     chart->analytic = [](Complex z) { return std::array<Complex, 2>{z, 1.0}; };
     std::sort(poles.begin(), poles.end());
     return {std::make_shared<GivenSpace>(std::move(phi)),
@@ -128,10 +128,9 @@ std::vector<int> nearest_samples(const Surface& source, std::span<const MeshPoin
 ChartPoints chart_points(const Surface& source, const Chart& chart, std::span<const MeshPoint> places) {
     const auto count = static_cast<Eigen::Index>(places.size());
     ChartPoints points{Eigen::VectorXcd(count), Eigen::VectorXcd(count)};
-    if (chart.exact && chart.analytic && source.in_plane()) {
-        const Eigen::VectorXcd plane = planar_coordinates(source.mesh);
+    if (const Eigen::VectorXcd* plane = source.coordinate(); plane && chart.exact && chart.analytic) {
         for (Eigen::Index i = 0; i < count; ++i) {
-            const auto [position, derivative] = chart.analytic(places[i].interpolate(plane));
+            const auto [position, derivative] = chart.analytic(places[i].interpolate(*plane));
             points.positions[i] = position;
             points.derivatives[i] = derivative;
         }

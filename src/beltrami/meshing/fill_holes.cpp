@@ -37,7 +37,7 @@ PolygonFill cone(int n) {
 
 /// Caps that lie in the plane; empty if some loop is not a simple polygon.
 std::vector<Cap> planar_caps(const Surface& source, const std::vector<int>& loops) {
-    const Eigen::VectorXcd z = planar_coordinates(source.mesh);
+    const Eigen::VectorXcd& z = *source.coordinate();
     const double side = seen_from_below(source.mesh) ? -1 : 1;
     std::vector<Cap> caps;
     for (const int l : loops) {

@@ -3,18 +3,17 @@
 #include <string>
 
 #include <beltrami/base/error.h>
-#include <beltrami/mesh/planar.h>
 
 namespace beltrami {
 
 Eigen::VectorXcd first_edge_directions(const Surface& surface) {
     const Operators& operators = surface.operators;
     Eigen::VectorXcd directions = Eigen::VectorXcd::Ones(operators.sample_count());
-    if (!surface.in_plane()) return directions;
-    const Eigen::VectorXcd z = planar_coordinates(surface.mesh);
+    const Eigen::VectorXcd* z = surface.coordinate();
+    if (!z) return directions;
     for (int s = 0; s < operators.sample_count(); ++s) {
         const auto corners = operators.stencil(s);
-        const Complex edge = z[corners[1]] - z[corners[0]];
+        const Complex edge = (*z)[corners[1]] - (*z)[corners[0]];
         directions[s] = edge / std::abs(edge);
     }
     return directions;

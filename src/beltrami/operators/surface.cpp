@@ -3,6 +3,7 @@
 #include <string>
 
 #include <beltrami/base/error.h>
+#include <beltrami/mesh/planar.h>
 
 namespace beltrami {
 
@@ -37,7 +38,9 @@ Surface::Surface(Mesh m)
       findings(require_sound(mesh)),
       topology(beltrami::topology(mesh)),
       operators(beltrami::operators(mesh)),
-      boundary_edge_lengths(lengths_of_loops(*this)) {}
+      boundary_edge_lengths(lengths_of_loops(*this)) {
+    if (is_planar(mesh)) coordinate_ = planar_coordinates(mesh);
+}
 
 Surface::Surface(Mesh m, Positions corners)
     : mesh(std::move(m)),

@@ -26,8 +26,14 @@ struct Surface {
     /// @throw Error bad_mesh
     Surface(Mesh mesh, Positions metric);
 
-    /// True if the operators are in the frame of a plane in which the mesh lies.
-    bool in_plane() const { return !metric && is_planar(mesh); }
+    /// The exact holomorphic coordinate that a surface in the plane has, in whose frame its operators are: x + iy of
+    /// every vertex, seen from the side from which the faces run counter-clockwise (#V). Null where the mesh does not
+    /// lie in a plane z = const or has a metric of its own.
+    const Eigen::VectorXcd* coordinate() const { return coordinate_ ? &*coordinate_ : nullptr; }
+    bool in_plane() const { return coordinate_.has_value(); }
+
+  private:
+    std::optional<Eigen::VectorXcd> coordinate_;
 };
 
 /// The surface with the metric, or with that of the mesh itself.

@@ -6,7 +6,6 @@
 
 #include <beltrami/base/error.h>
 #include <beltrami/mesh/boundary_position.h>
-#include <beltrami/mesh/planar.h>
 
 namespace beltrami {
 
@@ -84,7 +83,7 @@ class MeshedTarget final : public TargetModel {
     Eigen::VectorXcd places(const Eigen::VectorXcd& model) const override {
         const std::vector<Complex> points(model.begin(), model.end());
         const std::vector<MeshPoint> found = locate_in_chart(surface_, chart_.chart.vertices, points);
-        const Eigen::VectorXcd plane = planar_coordinates(surface_.mesh);
+        const Eigen::VectorXcd& plane = *surface_.coordinate();
         Eigen::VectorXcd result(model.size());
         for (Eigen::Index i = 0; i < model.size(); ++i) result[i] = found[i].interpolate(plane);
         return result;

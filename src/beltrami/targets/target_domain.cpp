@@ -1,7 +1,6 @@
 #include <beltrami/targets/target_domain.h>
 
 #include <beltrami/base/error.h>
-#include <beltrami/mesh/planar.h>
 #include <beltrami/plane/curve_meeting.h>
 
 namespace beltrami {
@@ -68,15 +67,15 @@ void validate(const TargetDomain& domain) {
 
 TargetDomain boundary_domain(const Surface& planar) {
     require_genus_zero(planar);
-    if (!planar.in_plane())
+    const Eigen::VectorXcd* place = planar.coordinate();
+    if (!place)
         throw Error(Cause::bad_mesh, "the target mesh does not lie in the plane",
                     "give a mesh with z = 0, or the curves of the target domain");
-    const Eigen::VectorXcd place = planar_coordinates(planar.mesh);
     const auto name = [](int loop) { return "boundary loop " + std::to_string(loop) + " of the target mesh"; };
     std::vector<TargetCurve> curves;
     for (const std::vector<int>& loop : planar.topology.boundary_loops) {
         std::vector<Complex> corners;
-        for (const int vertex : loop) corners.push_back(place[vertex]);
+        for (const int vertex : loop) corners.push_back((*place)[vertex]);
         try {
             curves.push_back(TargetCurve::polygon(corners));
         } catch (const Error& error) {

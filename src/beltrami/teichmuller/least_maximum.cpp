@@ -7,7 +7,6 @@
 #include <beltrami/base/error.h>
 #include <beltrami/charts/domain_chart.h>
 #include <beltrami/constraints/boundary_feasibility.h>
-#include <beltrami/mesh/planar.h>
 #include <beltrami/solve/beltrami_solver.h>
 #include <beltrami/unfold/branch_points.h>
 #include <beltrami/unfold/convex_combination_map.h>
@@ -142,9 +141,9 @@ LeastMaximumMap least_maximum_map(const Surface& source, const Constraints& cons
         descend(surface, boundary, start, options, result);
         if (!one_to_one(result) && boundary.vertices.size() > 1) {
             LeastMaximumMap other = result;
-            const Eigen::VectorXcd places =
-                surface.in_plane() ? planar_coordinates(surface.mesh) : least_squares_conformal_map(surface, {});
-            other.factorizations += surface.in_plane() ? 1 : 2;
+            const Eigen::VectorXcd* z = surface.coordinate();
+            const Eigen::VectorXcd places = z ? *z : least_squares_conformal_map(surface, {});
+            other.factorizations += z ? 1 : 2;
             descend(surface, boundary, displacement_start(surface, places, boundary), options, other);
             if (better(other, result)) {
                 result = std::move(other);

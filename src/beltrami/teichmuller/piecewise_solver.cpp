@@ -7,7 +7,6 @@
 #include <beltrami/charts/domain_chart.h>
 #include <beltrami/constraints/boundary_feasibility.h>
 #include <beltrami/mesh/boundary_position.h>
-#include <beltrami/mesh/planar.h>
 #include <beltrami/mesh/subdivide.h>
 #include <beltrami/teichmuller/record.h>
 
@@ -37,8 +36,8 @@ PiecewiseSolver::PiecewiseSolver(const Surface& source, const Constraints& const
     }
     if (source_.topology.boundary_loops.size() > 1) {
         Eigen::VectorXcd places;
-        if (source_.in_plane() && outer_loop_ == 0) {
-            places = planar_coordinates(source_.mesh);
+        if (const Eigen::VectorXcd* z = source_.coordinate(); z && outer_loop_ == 0) {
+            places = *z;
         } else {
             const Chart chart = domain_chart(source_, outer_loop_);
             places = chart.vertices;

@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include <beltrami/charts/domain_chart.h>
-#include <beltrami/mesh/planar.h>
 #include <beltrami/plane/circle_fit.h>
 
 namespace beltrami {
@@ -18,11 +17,10 @@ constexpr double kInaccurateChart = 0.03;
 constexpr double kSharp = 0.5;
 constexpr int kFewCorners = 12;
 
-/// Whether the outer loop of a planar source lies on a circle.
+/// Whether the outer loop of a source in the plane lies on a circle.
 bool outer_loop_is_round(const Surface& source) {
-    const Eigen::VectorXcd z = planar_coordinates(source.mesh);
     std::vector<Complex> outline;
-    for (const int v : source.topology.boundary_loops[0]) outline.push_back(z[v]);
+    for (const int v : source.topology.boundary_loops[0]) outline.push_back((*source.coordinate())[v]);
     return fit_circle(outline).exact();
 }
 
