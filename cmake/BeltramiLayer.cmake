@@ -58,7 +58,8 @@ function(beltrami_layer name)
         target_include_directories(beltrami_${name} PUBLIC
             $<BUILD_INTERFACE:$<TARGET_PROPERTY:beltrami_${layer},INTERFACE_INCLUDE_DIRECTORIES>>)
     endforeach()
-    set_target_properties(beltrami_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    set_target_properties(beltrami_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON
+        CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
     beltrami_precompile(layers beltrami_${name})
     set(BELTRAMI_LAYERS ${BELTRAMI_LAYERS} ${name} CACHE INTERNAL "")
 endfunction()
@@ -71,6 +72,7 @@ function(beltrami_choice layer file)
     add_library(beltrami_${file} OBJECT EXCLUDE_FROM_ALL src/beltrami/${layer}/${file}.cpp)
     beltrami_own_headers(${layer} beltrami_${file})
     target_link_libraries(beltrami_${file} PRIVATE beltrami_${layer} beltrami_warnings ${ARG_LIBRARIES})
-    set_target_properties(beltrami_${file} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    set_target_properties(beltrami_${file} PROPERTIES POSITION_INDEPENDENT_CODE ON
+        CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
     beltrami_precompile(layers beltrami_${file})
 endfunction()

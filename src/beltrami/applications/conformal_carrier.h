@@ -1,10 +1,11 @@
 #pragma once
 
+#include <beltrami/base/public.h>
 #include <beltrami/constraints/prescribed_split.h>
 #include <beltrami/solve/map_result.h>
 #include <beltrami/targets/target_domain.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// A conformal map to a domain that the surface alone determines, to carry a grid from there.
 struct ConformalCarrier : MapResult {

@@ -1,9 +1,10 @@
 #pragma once
 
 #include <beltrami/applications/plane_grid.h>
+#include <beltrami/base/public.h>
 #include <beltrami/targets/target_domain.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 enum class GridLines {
     automatic,    ///< log_polar where the domain is a ring between two circles of one centre, else rectangular

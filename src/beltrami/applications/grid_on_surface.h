@@ -5,10 +5,11 @@
 
 #include <beltrami/applications/grid_quality.h>
 #include <beltrami/applications/plane_grid.h>
+#include <beltrami/base/public.h>
 #include <beltrami/locate/planar_locator.h>
 #include <beltrami/operators/surface.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 struct GridOptions {
     /// What becomes of cells that the boundary of the image cuts.

@@ -2,9 +2,10 @@
 
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/mesh/mesh.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// Shape of the faces of a grid that lies on a surface. Angles in radians.
 struct GridQuality {

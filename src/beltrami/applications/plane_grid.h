@@ -4,9 +4,10 @@
 #include <variant>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/plane/segment_tree.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// Lines in two perpendicular directions. Columns run along the first direction, rows along the second.
 struct RectangularGrid {

@@ -3,10 +3,11 @@
 #include <span>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/starts/sliding_loops.h>
 #include <beltrami/targets/correspondence.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// Lets the image of a map whose boundary slid have the corners of its target: with no vertex at a corner its polygon
 /// cuts the corner off. The boundary vertex nearest to a corner moves there along its curve, by less than an edge,

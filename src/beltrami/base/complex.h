@@ -2,7 +2,9 @@
 
 #include <complex>
 
-namespace beltrami {
+#include <beltrami/base/public.h>
+
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// A point or vector of the plane.
 using Complex = std::complex<double>;

@@ -2,7 +2,9 @@
 
 #include <cstdint>
 
-namespace beltrami {
+#include <beltrami/base/public.h>
+
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// Costly things that are counted.
 enum class Work {

@@ -4,9 +4,10 @@
 #include <string>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/base/where.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// Why something could not be done. The command's exit code is a function of the cause alone.
 enum class Cause {

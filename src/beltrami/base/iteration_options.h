@@ -2,7 +2,9 @@
 
 #include <functional>
 
-namespace beltrami {
+#include <beltrami/base/public.h>
+
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// Called once per iteration with its number, from 1, and what the iteration makes small or settles (k, an energy);
 /// returning false cancels (Error cancelled).

@@ -4,7 +4,9 @@
 #include <functional>
 #include <vector>
 
-namespace beltrami {
+#include <beltrami/base/public.h>
+
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// Sets how many threads parallel_for may use. Results do not depend on it, to the last bit.
 /// @throw Error bad_option if @p count < 1

@@ -3,9 +3,10 @@
 #include <string>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/base/where.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// What a warning is about.
 enum class WarningKind {

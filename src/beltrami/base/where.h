@@ -2,7 +2,9 @@
 
 #include <vector>
 
-namespace beltrami {
+#include <beltrami/base/public.h>
+
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// What numbers count.
 enum class Things {

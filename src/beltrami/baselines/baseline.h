@@ -4,10 +4,11 @@
 #include <string>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/base/warning.h>
 #include <beltrami/constraints/boundary_condition.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// Maps that others compute, with one signature, to compare extremal maps with. The source is one component with a
 /// boundary.

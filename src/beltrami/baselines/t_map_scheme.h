@@ -4,10 +4,11 @@
 #include <string>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/flow/flow_start.h>
 #include <beltrami/flow/slid_map.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// One linear solve of the scheme, and |μ| of the map after it.
 struct TMapSolve {

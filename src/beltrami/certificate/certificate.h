@@ -1,9 +1,10 @@
 #pragma once
 
+#include <beltrami/base/public.h>
 #include <beltrami/differentials/quadratic_differential.h>
 #include <beltrami/operators/map_derivatives.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// A statement about a dilatation K.
 struct Bound {

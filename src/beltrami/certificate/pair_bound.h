@@ -4,9 +4,10 @@
 #include <optional>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/operators/surface.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// A mesh of the image of a surface whose boundary is the image of the surface's boundary. Its inside need not have to
 /// do with the surface.

@@ -3,11 +3,12 @@
 #include <string>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/certificate/certificate.h>
 #include <beltrami/certificate/pair_bound.h>
 #include <beltrami/constraints/boundary_condition.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// Which of the bounds below to work out.
 struct ProvedBoundsOptions {

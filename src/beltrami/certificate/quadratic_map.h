@@ -2,10 +2,11 @@
 
 #include <memory>
 
+#include <beltrami/base/public.h>
 #include <beltrami/certificate/certificate.h>
 #include <beltrami/solve/beltrami_solver.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// A piecewise quadratic map of a triangle mesh: images of the vertices, then of the midpoints of topology's edges
 /// (#V+#E). Its derivatives are linear on a triangle, so where a piecewise linear map errs by h its Reich-Strebel bound

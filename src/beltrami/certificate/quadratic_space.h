@@ -3,9 +3,10 @@
 #include <array>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/certificate/quadratic_map.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// Maps that are quadratic on triangles, with power elements around cone points: what a verified upper bound of K* is
 /// made of. Nodes are the vertices, then the midpoints of topology's edges, as for QuadraticMap.

@@ -3,10 +3,11 @@
 #include <limits>
 #include <string>
 
+#include <beltrami/base/public.h>
 #include <beltrami/certificate/pair_bound.h>
 #include <beltrami/certificate/quadratic_space.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 struct VerifiedBracketOptions {
     double gap = 0.01;            ///< stop at K_upper ≤ (1 + gap) K_lower

@@ -4,10 +4,11 @@
 #include <span>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/charts/chart_places.h>
 #include <beltrami/constraints/boundary_condition.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// Where a surface's boundary goes on that of another surface.
 struct BoundaryCorrespondence {

@@ -3,9 +3,10 @@
 #include <array>
 #include <optional>
 
+#include <beltrami/base/public.h>
 #include <beltrami/constraints/boundary_condition.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// How fast a boundary loop of a source runs along the boundary of its target.
 enum class BoundarySpeed {

@@ -5,10 +5,11 @@
 #include <string>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/base/warning.h>
 #include <beltrami/operators/surface.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// A conformal map of a surface to a canonical domain, in which quadratic differentials are easy to write down.
 /// A differential ψ of the domain is pulled back to a sample by φ = ψ(position) · derivative².

@@ -3,10 +3,11 @@
 #include <span>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/charts/circle_domain_chart.h>
 #include <beltrami/locate/planar_locator.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// The places of a surface that a chart maps to given points: face, three of its vertices, barycentric coordinates.
 /// A point outside the chart's polygons, as between a chord and its arc, takes the nearest place of the boundary.

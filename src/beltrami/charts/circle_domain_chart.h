@@ -3,10 +3,11 @@
 #include <array>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/charts/domain_chart.h>
 #include <beltrami/plane/circle_domain.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 struct CircleDomainOptions {
     int max_steps = 30;       ///< Newton steps of the sliding rims

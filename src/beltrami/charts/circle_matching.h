@@ -4,10 +4,11 @@
 #include <span>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/plane/disk_moebius.h>
 #include <beltrami/targets/correspondence.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// A place of one disk, its circle included, that belongs to one of another.
 struct PlacePair {

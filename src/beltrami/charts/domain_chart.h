@@ -1,9 +1,10 @@
 #pragma once
 
+#include <beltrami/base/public.h>
 #include <beltrami/charts/hole_rounding.h>
 #include <beltrami/charts/round_disk.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 struct DomainChartOptions {
     double round_from = 1.2;  ///< holes are made rounder where one has a larger ratio (hole_centre.h); infinite: never

@@ -1,8 +1,9 @@
 #pragma once
 
+#include <beltrami/base/public.h>
 #include <beltrami/charts/chart.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// A map of a disk-like surface onto the polygon of its boundary vertices on the unit circle.
 struct FoldFreeDisk {

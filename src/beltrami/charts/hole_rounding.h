@@ -5,9 +5,10 @@
 
 #include <Eigen/Core>
 
+#include <beltrami/base/public.h>
 #include <beltrami/mesh/mesh.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// z exp(q(z)), q = Σ_h Σ_j a_hj t_h^j − conj(a_hj) s_h^j with t_h = r_h/(z − c_h) and its mirror image in the unit
 /// circle s_h = r_h z/(1 − conj(c_h) z): analytic outside the holes, and the unit circle goes to itself exactly as Re q

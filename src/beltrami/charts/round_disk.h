@@ -1,9 +1,10 @@
 #pragma once
 
+#include <beltrami/base/public.h>
 #include <beltrami/charts/chart.h>
 #include <beltrami/solve/beltrami_solver.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 struct RoundDiskOptions {
     int sliding_steps = 0;    ///< Newton steps of the sliding boundary after the linear solve (docs/conformal.md)

@@ -6,10 +6,11 @@
 #include <optional>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/charts/circle_domain_chart.h>
 #include <beltrami/constraints/prescribed_split.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// A surface with its conformal charts, each computed when it is first asked for and then kept: what boundary values,
 /// maps and distances of one surface share. May be asked from several threads.

@@ -2,9 +2,10 @@
 
 #include <optional>
 
+#include <beltrami/base/public.h>
 #include <beltrami/charts/circle_domain_chart.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// A surface on its canonical domain, normalised so that congruent domains are those of conformally equivalent surfaces
 /// with loops in the same order.

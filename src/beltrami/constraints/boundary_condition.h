@@ -2,9 +2,10 @@
 
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/operators/surface.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// What is prescribed about a map to the plane: vertices with their image points, and vertices whose images are to lie
 /// on lines. Boundary vertices that are not named are free (natural condition).

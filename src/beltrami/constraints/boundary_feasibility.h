@@ -1,8 +1,9 @@
 #pragma once
 
+#include <beltrami/base/public.h>
 #include <beltrami/constraints/boundary_condition.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// Refuses boundary data that no one-to-one, orientation-preserving map of a genus-0 surface to the plane has. Any
 /// number of boundary loops; vertices that are not prescribed are free, and only what does not depend on them is

@@ -4,10 +4,11 @@
 #include <variant>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/constraints/boundary_condition.h>
 #include <beltrami/targets/correspondence.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// An arc of a boundary loop that slides between two vertices of the loop, which keep their places: those from first on
 /// in the order of the loop, to last.

@@ -4,9 +4,10 @@
 #include <optional>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/constraints/boundary_condition.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// A mesh on which no face and no bridge is wholly prescribed.
 struct SplitProblem {

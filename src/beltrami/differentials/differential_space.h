@@ -2,9 +2,10 @@
 
 #include <memory>
 
+#include <beltrami/base/public.h>
 #include <beltrami/charts/chart.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// Points at which differentials are wanted: positions in the canonical domain, and the derivative of the chart there
 /// (1 for values in the canonical domain itself).

@@ -5,11 +5,12 @@
 #include <span>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/differentials/differential_space.h>
 #include <beltrami/differentials/singularities.h>
 #include <beltrami/locate/planar_locator.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// A holomorphic quadratic differential φ on a surface: a combination of the functions of a space, written down in a
 /// chart.

@@ -5,9 +5,10 @@
 
 #include <Eigen/Core>
 
+#include <beltrami/base/public.h>
 #include <beltrami/mesh/mesh.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// Where the quadratic differentials of a problem may be singular, in the canonical domain: what a space of rational
 /// functions is built from, and where samples have to be dense.

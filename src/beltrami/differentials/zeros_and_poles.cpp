@@ -38,7 +38,7 @@ class PlaneOfDifferential {
   public:
     PlaneOfDifferential(const Surface& source, const QuadraticDifferential& phi)
         : source_(source), phi_(phi), own_(phi.chart->exact && phi.chart->analytic && source.in_plane()) {
-        const Eigen::VectorXcd z = own_ ? planar_coordinates(source.mesh) : phi.chart->vertices;
+        const Eigen::VectorXcd& z = own_ ? *source.coordinate() : phi.chart->vertices;
         region_.points = z;
         add_faces(z);
         add_rim(z);

@@ -2,9 +2,10 @@
 
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/differentials/quadratic_differential.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// A zero or pole of a quadratic differential: where |order + 2| of its horizontal trajectories meet.
 struct CriticalPoint {

@@ -3,9 +3,10 @@
 #include <functional>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/constraints/boundary_condition.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 struct EvenDilatationOptions {
     double anchor = 0.07;           ///< λ: how firmly the phase is held where |φ| is large (dilatation_spread.h)

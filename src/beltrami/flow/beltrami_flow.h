@@ -4,10 +4,11 @@
 #include <string>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/flow/flow_start.h>
 #include <beltrami/flow/slid_map.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// How far a map is from having a coefficient.
 struct CoefficientError {

@@ -1,8 +1,9 @@
 #pragma once
 
+#include <beltrami/base/public.h>
 #include <beltrami/starts/sliding_start.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 struct FlowStartOptions {
     double target_edge_length = 0;  ///< of the mesh of a target that is not round; 0: that of the source, relatively

@@ -3,11 +3,12 @@
 #include <string>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/solve/map_result.h>
 #include <beltrami/starts/sliding_loops.h>
 #include <beltrami/starts/sliding_start.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// What iterations whose boundary slides end with: FlowMap, TMapSchemeResult.
 struct SlidMap : MapResult {

@@ -1,8 +1,9 @@
 #pragma once
 
+#include <beltrami/base/public.h>
 #include <beltrami/mesh/mesh.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// What the cells of a grid become.
 enum class Cells { triangles, quads };

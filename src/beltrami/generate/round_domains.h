@@ -1,9 +1,10 @@
 #pragma once
 
+#include <beltrami/base/public.h>
 #include <beltrami/mesh/mesh.h>
 #include <beltrami/meshing/jitter.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// The disk |z| ≤ radius in concentric rings: ring k has 6k vertices, so all edges have nearly the length radius/rings
 /// and no angle is below 43 degrees. Vertex 0 is the centre; rings follow from the inside, counter-clockwise from the

@@ -1,8 +1,9 @@
 #pragma once
 
+#include <beltrami/base/public.h>
 #include <beltrami/mesh/mesh.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// Sphere from an icosahedron, its triangles split into four @p levels times: 20·4^levels triangles, 12 vertices of
 /// degree 5, the rest of degree 6. Vertices of every level keep their index on the next.

@@ -2,10 +2,11 @@
 
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/constraints/boundary_condition.h>
 #include <beltrami/targets/correspondence.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// Boundary values on the way from a planar domain to prescribed ones: the centres of the holes move along polylines
 /// through waypoints, straight without any. Maps that follow the way in small steps end in the homotopy class that it

@@ -2,9 +2,10 @@
 
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/operators/surface.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// The path of edges along which the turns of a hole are counted: from a vertex of the outer loop to one of the hole's.
 struct LoopPath {

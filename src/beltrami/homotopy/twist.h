@@ -2,10 +2,11 @@
 
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/constraints/boundary_condition.h>
 #include <beltrami/homotopy/homotopy.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// The ring r ≤ |z − centre| ≤ ρ around a hole, free of all other loops; the hole itself lies in |z − centre| ≤ r.
 struct HoleRing {

@@ -4,7 +4,9 @@
 #include <string>
 #include <string_view>
 
-namespace beltrami {
+#include <beltrami/base/public.h>
+
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// A file that appears under its name only once it is complete: until commit() the bytes go to a temporary file
 /// in the same folder (.beltrami-….tmp), which is removed if commit() is never reached. An existing file of that name

@@ -4,7 +4,9 @@
 
 #include <Eigen/Core>
 
-namespace beltrami {
+#include <beltrami/base/public.h>
+
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// Reads a Beltrami coefficient, one number a face: a PLY with the face properties mu_re and mu_im, as write_mesh
 /// writes them, or a text of lines `face re im`, each face once, in any order.

@@ -5,7 +5,9 @@
 #include <filesystem>
 #include <string>
 
-namespace beltrami {
+#include <beltrami/base/public.h>
+
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// ".obj" for "Fish.OBJ"; empty if the name has no extension.
 inline std::string lower_case_extension(const std::filesystem::path& path) {

@@ -5,9 +5,10 @@
 #include <string>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/mesh/mesh.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// Types of numbers in a PLY file.
 enum class NumberType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };

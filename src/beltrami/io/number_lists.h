@@ -5,9 +5,10 @@
 #include <string>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/mesh/mesh.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// Reads a text file of numbers: one row a line, separated by blanks; # begins a comment; blank lines are passed over.
 /// @param columns how many numbers each row must have

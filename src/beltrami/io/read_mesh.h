@@ -6,11 +6,12 @@
 #include <string_view>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/base/warning.h>
 #include <beltrami/io/file_attributes.h>
 #include <beltrami/mesh/mesh.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// A mesh as its file has it, and what the file held that the mesh does not.
 struct LoadedMesh {

@@ -4,9 +4,10 @@
 #include <string>
 #include <string_view>
 
+#include <beltrami/base/public.h>
 #include <beltrami/targets/target_domain.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// Reads a target domain: {"outer": LOOP, "holes": [LOOP, …]}, holes optional, where LOOP is {"circle": [x, y, r]},
 /// {"polygon": [[x, y], …]} or {"spline": [[x, y], …]}, in either direction.

@@ -6,7 +6,9 @@
 #include <string>
 #include <string_view>
 
-namespace beltrami {
+#include <beltrami/base/public.h>
+
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// The number that a whole word spells, in any locale; nothing if it spells none or one out of range.
 template <class Number>

@@ -5,10 +5,11 @@
 #include <string>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/io/file_attributes.h>
 #include <beltrami/mesh/mesh.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 // All writers write completely or not at all (see AtomicFile), with the fewest digits that give the same double back:
 // what is read again is the same mesh, bit for bit. Where a format demands three coordinates, a mesh of the plane gets

@@ -4,10 +4,11 @@
 #include <span>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/locate/planar_locator.h>
 #include <beltrami/locate/surface_locator.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// A map of a mesh to the plane, known at its vertices or face corners, and its inverse at any points: both linear on
 /// triangles. A quad is two triangles, along the diagonal that lies inside its image (of two the one from its first

@@ -4,9 +4,10 @@
 #include <optional>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/mesh/mesh.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// A point of a mesh: a face, three of its vertices, and barycentric coordinates with respect to them.
 struct MeshPoint {

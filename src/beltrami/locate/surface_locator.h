@@ -5,9 +5,10 @@
 
 #include <Eigen/Core>
 
+#include <beltrami/base/public.h>
 #include <beltrami/mesh/mesh.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// Finds the point of a triangle mesh in space that is nearest to a given one: a tree of bounding boxes, halved at the
 /// median of their longest side.

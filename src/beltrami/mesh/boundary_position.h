@@ -2,9 +2,10 @@
 
 #include <optional>
 
+#include <beltrami/base/public.h>
 #include <beltrami/mesh/topology.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// Where a vertex stands on the boundary.
 struct BoundaryPosition {

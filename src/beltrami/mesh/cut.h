@@ -4,10 +4,11 @@
 #include <array>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/mesh/mesh.h>
 #include <beltrami/mesh/submesh.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// The half {n·x ≥ d} of a plane.
 struct HalfSpace {

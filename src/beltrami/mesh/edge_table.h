@@ -4,9 +4,10 @@
 #include <span>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/mesh/mesh.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// The edges of any face list, manifold or not: what topology() and diagnose() are built from.
 struct EdgeTable {

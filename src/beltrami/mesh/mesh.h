@@ -6,8 +6,9 @@
 #include <vector>
 
 #include <beltrami/base/complex.h>
+#include <beltrami/base/public.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// Vertex positions, one row a vertex: #V×3 in space or #V×2 in the plane. Row-major, so a row is contiguous.
 using Positions = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;

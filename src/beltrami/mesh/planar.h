@@ -2,9 +2,10 @@
 
 #include <Eigen/Core>
 
+#include <beltrami/base/public.h>
 #include <beltrami/mesh/mesh.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// True if the faces of a planar mesh run clockwise: their signed areas have a negative sum.
 /// @pre is_planar(mesh), indices in range

@@ -4,9 +4,10 @@
 #include <span>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/mesh/mesh.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// A mesh with vertices added, and what each new vertex lies between.
 struct SubdividedMesh {

@@ -2,9 +2,10 @@
 
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/mesh/mesh.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// A part of a mesh, and where its vertices and faces come from. Order is that of the whole mesh.
 struct Submesh {

@@ -2,9 +2,10 @@
 
 #include <Eigen/Core>
 
+#include <beltrami/base/public.h>
 #include <beltrami/mesh/mesh.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// The map to the plane that a mesh has as its texture coordinates, one point a vertex: what is written with a map as
 /// vt. 0 at vertices without faces.

@@ -3,9 +3,10 @@
 #include <array>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/mesh/mesh.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// Combinatorics of a mesh whose edges are manifold and coherently oriented.
 struct Topology {

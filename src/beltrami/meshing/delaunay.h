@@ -5,9 +5,10 @@
 #include <functional>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/mesh/mesh.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// A region of the plane bounded by closed chains of segments that neither cross nor touch: one or more outer ones and
 /// holes. A place is inside if it is enclosed by an odd number of chains.

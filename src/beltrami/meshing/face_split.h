@@ -2,9 +2,10 @@
 
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/mesh/mesh.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// A mesh some faces of which were cut into triangles. Order is kept, texture coordinates come along.
 struct SplitMesh {

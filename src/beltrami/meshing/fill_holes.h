@@ -3,9 +3,10 @@
 #include <optional>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/operators/surface.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// What closes one boundary loop.
 struct HoleFill {

@@ -5,9 +5,10 @@
 #include <functional>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/mesh/mesh.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// Random displacement of the vertices of a generated planar mesh.
 struct JitterOptions {

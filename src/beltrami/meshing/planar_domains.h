@@ -3,11 +3,12 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/mesh/mesh.h>
 #include <beltrami/meshing/delaunay.h>
 #include <beltrami/meshing/jitter.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 struct Circle {
     Eigen::Vector2d centre = Eigen::Vector2d::Zero();

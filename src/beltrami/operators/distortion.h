@@ -1,8 +1,9 @@
 #pragma once
 
+#include <beltrami/base/public.h>
 #include <beltrami/operators/map_derivatives.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// μ = ∂̄f/∂f at every sample (#S) of a map. |μ| < 1 exactly where the map keeps orientation, > 1 where it
 /// is turned over; infinite where ∂f = 0 only, NaN where both derivatives vanish.

@@ -1,8 +1,9 @@
 #pragma once
 
+#include <beltrami/base/public.h>
 #include <beltrami/operators/surface.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// In which frame of a face a coefficient is written.
 enum class CoefficientFrame {

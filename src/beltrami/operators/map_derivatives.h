@@ -1,8 +1,9 @@
 #pragma once
 
+#include <beltrami/base/public.h>
 #include <beltrami/operators/operators.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// All that anybody reads of a map: its derivatives at the samples, in an oriented frame of the image, and the size of
 /// the image.

@@ -6,9 +6,10 @@
 
 #include <Eigen/SparseCore>
 
+#include <beltrami/base/public.h>
 #include <beltrami/mesh/mesh.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// The derivatives ∂ and ∂̄ of a mesh: the only way in which solvers read it.
 ///

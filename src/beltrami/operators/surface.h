@@ -2,11 +2,12 @@
 
 #include <optional>
 
+#include <beltrami/base/public.h>
 #include <beltrami/mesh/diagnosis.h>
 #include <beltrami/mesh/topology.h>
 #include <beltrami/operators/operators.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// A mesh that passed the diagnosis, with its topology and the operators of its metric: what every solver starts from.
 struct Surface {

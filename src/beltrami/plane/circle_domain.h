@@ -3,8 +3,9 @@
 #include <span>
 
 #include <beltrami/base/complex.h>
+#include <beltrami/base/public.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// A hole of a circle domain: the unit disk less round holes.
 struct RoundHole {

@@ -2,9 +2,10 @@
 
 #include <Eigen/Core>
 
+#include <beltrami/base/public.h>
 #include <beltrami/plane/circle_domain.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// A Möbius map of the unit disk to itself, z ↦ e^{iα} (z − a)/(1 − āz): the isometries of the hyperbolic plane that
 /// keep its orientation.

@@ -5,8 +5,9 @@
 #include <vector>
 
 #include <beltrami/base/complex.h>
+#include <beltrami/base/public.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 namespace detail {
 struct CurvePieces;

@@ -3,9 +3,10 @@
 #include <string>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/teichmuller/distance.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// Shapes in an order in which every cluster is a run: leaves of the tree from left to right.
 std::vector<int> cluster_order(const std::vector<Merge>& merges);

@@ -2,9 +2,10 @@
 
 #include <string>
 
+#include <beltrami/base/public.h>
 #include <beltrami/differentials/quadratic_differential.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// μ and φ of an extremal map at the samples of the mesh that was mapped, each in the frame whose real axis is the
 /// first edge of its face, and φ's zeros and poles (zeros_and_poles.h), as JSON (docs/json.md). φ, known up to a

@@ -4,8 +4,9 @@
 
 #include <beltrami/applications/fitting_grid.h>
 #include <beltrami/applications/grid_on_surface.h>
+#include <beltrami/base/public.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// A grid carried to a surface.
 struct GridRecord {

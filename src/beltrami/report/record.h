@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/base/warning.h>
 #include <beltrami/charts/uniformization.h>
 #include <beltrami/flow/beltrami_flow.h>
@@ -15,7 +16,7 @@
 #include <beltrami/teichmuller/least_maximum.h>
 #include <beltrami/uniformize/sphere_map.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// What was read. Topology is absent for a mesh on which it is not defined.
 struct SourceRecord {

@@ -2,9 +2,10 @@
 
 #include <memory>
 
+#include <beltrami/base/public.h>
 #include <beltrami/constraints/boundary_condition.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// The map with a given Beltrami coefficient: minimises Σ A |∂̄f − ν ∂f|²/(1−|ν|²) over f = f₀ + B y, where B holds
 /// what each vertex is free to do. One symbolic analysis; any number of coefficients.

@@ -1,8 +1,9 @@
 #pragma once
 
+#include <beltrami/base/public.h>
 #include <beltrami/mesh/mesh.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// The composition g∘f at the vertices of f's source: f goes to the plane, g is given at the vertices of a planar mesh
 /// and linear between them. Images of f outside that mesh are taken to its nearest boundary point, if it is near.

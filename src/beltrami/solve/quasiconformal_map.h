@@ -1,8 +1,9 @@
 #pragma once
 
+#include <beltrami/base/public.h>
 #include <beltrami/constraints/boundary_condition.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// @param mu coefficients of the source's samples
 /// @throw Error bad_option unless there is one for every sample (#S), all finite and below 1 in size; the indices are

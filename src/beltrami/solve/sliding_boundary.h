@@ -2,10 +2,11 @@
 
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/constraints/boundary_condition.h>
 #include <beltrami/plane/target_curve.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// A boundary loop whose vertices lie on a curve and slide along it, but for those that are held.
 struct SlidingLoop {

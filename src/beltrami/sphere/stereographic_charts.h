@@ -1,8 +1,9 @@
 #pragma once
 
+#include <beltrami/base/public.h>
 #include <beltrami/mesh/mesh.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// A map to the unit sphere as texture coordinates: a pair of stereographic charts side by side. The faces whose middle
 /// lies north of the equator are projected from the south pole, to about the unit disk around 0; the others from the

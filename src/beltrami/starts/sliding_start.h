@@ -1,11 +1,12 @@
 #pragma once
 
+#include <beltrami/base/public.h>
 #include <beltrami/plane/disk_moebius.h>
 #include <beltrami/solve/sliding_boundary.h>
 #include <beltrami/starts/target_model.h>
 #include <beltrami/targets/correspondence.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// A map of the right class from which boundaries can slide.
 struct SlidingStart {

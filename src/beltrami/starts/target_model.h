@@ -4,11 +4,12 @@
 #include <span>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/charts/chart_places.h>
 #include <beltrami/targets/correspondence.h>
 #include <beltrami/targets/target_mesh.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// A target domain with a circle domain that stands for it conformally: the unit disk less round holes, the same for
 /// every shape of the class, in which a start is easily led to its place.

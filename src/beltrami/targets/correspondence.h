@@ -5,9 +5,10 @@
 #include <variant>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/targets/target_domain.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// A place on a curve of a target domain, by arc length.
 struct CurveParameter {

@@ -3,10 +3,11 @@
 #include <string>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/operators/surface.h>
 #include <beltrami/plane/target_curve.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// A bounded domain of the plane given by its boundary curves, all with the domain on their left, as the boundary loops
 /// of a mesh have their faces. Curve 0 is the outer one, curve i + 1 is hole i.

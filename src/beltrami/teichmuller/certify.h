@@ -2,9 +2,10 @@
 
 #include <limits>
 
+#include <beltrami/base/public.h>
 #include <beltrami/teichmuller/extremal_map.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 struct CertifyOptions {
     int most_triangles = 300000;  ///< no finer mesh than that for the estimates

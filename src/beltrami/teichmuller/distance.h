@@ -2,9 +2,10 @@
 
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/teichmuller/extremal_map.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// Teichmüller's distance ½ log K* of two shapes of one topology, with its bracket.
 struct Distance {

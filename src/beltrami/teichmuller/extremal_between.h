@@ -4,10 +4,11 @@
 #include <span>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/charts/boundary_correspondence.h>
 #include <beltrami/teichmuller/extremal_map.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// A surface onto which a boundary is prescribed, by way of its circle domain.
 struct PrescribedTarget {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/certificate/certificate.h>
 #include <beltrami/charts/chart_places.h>
 #include <beltrami/constraints/boundary_corners.h>
@@ -17,7 +18,7 @@
 #include <beltrami/teichmuller/extremal_options.h>
 #include <beltrami/teichmuller/iteration.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// Whether a corner forces a K that is clearly larger, and the warning that says so.
 bool corner_decides(const BoundaryCorner& corner, double K);

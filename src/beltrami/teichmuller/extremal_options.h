@@ -7,8 +7,9 @@
 
 #include <beltrami/base/complex.h>
 #include <beltrami/base/iteration_options.h>
+#include <beltrami/base/public.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 class Shape;
 

@@ -2,9 +2,10 @@
 
 #include <memory>
 
+#include <beltrami/base/public.h>
 #include <beltrami/teichmuller/extremal_map.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 class ProblemSolver;
 

@@ -1,6 +1,8 @@
 #pragma once
 
-namespace beltrami {
+#include <beltrami/base/public.h>
+
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// One iteration in the history of an extremal map.
 struct Iteration {

@@ -2,9 +2,10 @@
 
 #include <optional>
 
+#include <beltrami/base/public.h>
 #include <beltrami/teichmuller/least_maximum.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// Boundary vertices that are free where every loop has some that are prescribed, two in all at least, else none: a
 /// loop of which nothing is said has been forgotten, or is meant to be free as a whole.

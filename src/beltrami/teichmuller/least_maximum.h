@@ -5,11 +5,12 @@
 #include <string>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/base/warning.h>
 #include <beltrami/teichmuller/extremal_map.h>
 #include <beltrami/unfold/fold_free.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 struct LeastMaximumOptions {
     double power = 128;         ///< p of the last stage, at least 1

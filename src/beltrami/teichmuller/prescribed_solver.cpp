@@ -9,7 +9,6 @@
 #include <beltrami/constraints/boundary_feasibility.h>
 #include <beltrami/homotopy/continuation.h>
 #include <beltrami/homotopy/twist.h>
-#include <beltrami/mesh/planar.h>
 #include <beltrami/mesh/subdivide.h>
 #include <beltrami/teichmuller/boundary_slack.h>
 #include <beltrami/teichmuller/coarse_start.h>
@@ -97,8 +96,8 @@ void PrescribedSolver::choose_start() {
         map = prepared_.split ? with_parents_means(*options_.start, prepared_.split->parents) : *options_.start;
         prescribe(map, boundary_);
     } else if (wanted_.waypoints) {
-        const Eigen::VectorXcd places = source_.in_plane() && wanted_.outer_loop == 0 ? planar_coordinates(source_.mesh)
-                                                                                      : problem_.chart().vertices;
+        const Eigen::VectorXcd* plane = source_.coordinate();
+        const Eigen::VectorXcd places = plane && wanted_.outer_loop == 0 ? *plane : problem_.chart().vertices;
         map = follow(source_, Continuation(source_, places, wanted_.outer_loop, boundary_, *wanted_.waypoints)).map;
     } else if (!wanted_.turns.empty()) {
         map = start_in_class(source_, problem_.chart().vertices, wanted_.outer_loop, boundary_, wanted_.turns).map;

@@ -3,9 +3,10 @@
 #include <functional>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/constraints/boundary_condition.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 struct FoldFreeOptions {
     double power = 1;           ///< p ≥ 1; 8 to 128 approach the map of least max |μ| on this mesh

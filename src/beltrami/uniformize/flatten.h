@@ -4,9 +4,10 @@
 
 #include <Eigen/Core>
 
+#include <beltrami/base/public.h>
 #include <beltrami/mesh/mesh.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// What flatten() does at the boundary, and when it stops.
 struct FlattenOptions {

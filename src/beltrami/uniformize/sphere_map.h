@@ -4,11 +4,12 @@
 #include <string>
 #include <vector>
 
+#include <beltrami/base/public.h>
 #include <beltrami/base/warning.h>
 #include <beltrami/operators/distortion.h>
 #include <beltrami/operators/surface.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// Ways to map a closed surface to the sphere.
 enum class SphereMethod {
