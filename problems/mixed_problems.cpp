@@ -6,8 +6,8 @@
 #include <numbers>
 #include <utility>
 
-#include <beltrami/charts/circle_domain_chart.h>
 #include <beltrami/charts/boundary_values.h>
+#include <beltrami/charts/circle_domain_chart.h>
 
 #include "problems/construct.h"
 #include "problems/elliptic.h"

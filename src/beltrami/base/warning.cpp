@@ -28,6 +28,8 @@ const char* to_string(WarningKind kind) {
             return "fallback";
         case WarningKind::unfolded:
             return "unfolded";
+        case WarningKind::turned_in:
+            return "turned_in";
         case WarningKind::unresolved_faces:
             return "unresolved_faces";
         case WarningKind::off_centre:

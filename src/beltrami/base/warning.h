@@ -22,6 +22,7 @@ enum class WarningKind {
     start,             ///< another start than what was asked for or usual
     fallback,          ///< another method than the one asked for has found the map
     unfolded,          ///< vertices were moved to turn flipped faces up
+    turned_in,         ///< quads turn in at a corner, or nearly collapse, on the sphere
     unresolved_faces,  ///< faces are so small in the map that doubles do not resolve them
     off_centre,        ///< nearly half of a closed surface comes to one point of the sphere
     flipped_faces,     ///< the result is not one-to-one

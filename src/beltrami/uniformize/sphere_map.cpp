@@ -205,11 +205,11 @@ class Mapping {
         Warnings warnings = std::move(result_.warnings);
         result_ = std::move(*turned_in_);
         result_.warnings = std::move(warnings);
-        const std::vector<int> turned = faces_.flipped(result_.positions);
-        result_.warnings.push_back(
-            {WarningKind::flipped_faces,
-             std::to_string(turned.size()) + " quads turn in at a corner on the sphere; as triangles none is flipped",
-             {Things::faces, turned}});
+        const std::vector<int> turned_in = faces_.flipped(result_.positions);
+        result_.warnings.push_back({WarningKind::turned_in,
+                                    std::to_string(turned_in.size()) +
+                                        " quads turn in at a corner on the sphere; as triangles none is flipped",
+                                    {Things::faces, turned_in}});
         return true;
     }
 
@@ -313,10 +313,10 @@ class Mapping {
         result_.distortion = distortion(source_.operators, result_.positions, result_.positions);
         if (const std::vector<int>& flipped = result_.distortion.flipped; !flipped.empty())
             result_.warnings.push_back(
-                {WarningKind::flipped_faces,
+                {WarningKind::turned_in,
                  std::to_string(flipped.size()) + " faces, the first is face " + std::to_string(flipped[0]) +
-                     ", keep their orientation on the sphere, but not at every point where |mu| is measured: they are "
-                     "quads that turn in, or nearly collapsed",
+                     ", keep their orientation on the sphere, but not at every point where |mu| is "
+                     "measured: they are quads that turn in, or nearly collapsed",
                  {Things::faces, flipped}});
         find_unresolved(result_.positions);
         if (!result_.unresolved.empty())
@@ -324,10 +324,9 @@ class Mapping {
                 {WarningKind::unresolved_faces, unresolved_sentence(), {Things::faces, result_.unresolved}});
         if (result_.moved > 0)
             result_.warnings.push_back(
-                {WarningKind::unfolded,
-                 std::to_string(result_.moved) +
-                     " vertices were moved to turn faces up that came out flipped, as edges were "
-                     "flipped on the way"});
+                {WarningKind::unfolded, std::to_string(result_.moved) +
+                                            " vertices were moved to turn faces up that came out flipped between the "
+                                            "conformal images"});
         if (result_.centre_distance > kOffCentre)
             result_.warnings.push_back({WarningKind::off_centre,
                                         "the centre of mass is off the sphere's centre: nearly half of the surface "
