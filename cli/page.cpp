@@ -14,10 +14,11 @@ Positions positions_of(const Eigen::VectorXcd& map) {
 void write_page(const std::string& path, const Mesh& source, std::vector<PageMap> maps,
                 const std::vector<Iteration>& history, const Record& record, const std::string& title) {
     if (path.empty()) return;
-    PageContent content{source, std::move(maps), {}, {}, to_json(record), title};
+    PageContent content{source, std::move(maps), {}, {}, {}, to_json(record), title};
     for (const Iteration& iteration : history) {
         content.history_k.push_back(iteration.k);
         content.history_change.push_back(iteration.change);
+        content.history_largest.push_back(iteration.largest);
     }
     write_atomically(path, render_page(content));
 }

@@ -25,6 +25,16 @@ class Options(Command):
         limited = self.map("--max-iterations", "2")
         self.assertEqual((limited["solve"]["termination"], limited["solve"]["iterations"]), ("iteration_limit", 2))
 
+    def test_history(self):
+        record = self.map("--evening", "never")
+        history = record["solve"]["history"]
+        self.assertEqual({len(values) for values in history.values()}, {record["solve"]["iterations"] + 1})
+        self.assertLess(history["change"][-1], 1e-8)
+        # The map of the last iteration is the one that is written; the harmonic start is more uneven.
+        self.assertAlmostEqual(history["largest_mu"][-1], record["map"]["mu"]["max"], delta=1e-12)
+        self.assertGreater(history["largest_mu"][0], 1.2 * history["largest_mu"][-1])
+        self.assertNotIn("history", self.map("--method", "arap")["solve"])
+
     def test_evening(self):
         plain = self.map("--evening", "never")["map"]["mu"]
         even = self.map("--evening", "always")["map"]["mu"]

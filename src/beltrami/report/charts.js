@@ -129,10 +129,11 @@ function drawLine(id, values, name, logarithmic, style) {
 }
 
 function drawCharts() {
-    const { k, change } = data.history;
+    const { k, change, largest } = data.history;
     $("history-section").hidden = !k.length && !change.length;
     drawHistogram();
     drawBounds();
     drawLine("history-k", k, "k", false, "");
+    drawLine("history-largest", largest.map(m => m > 0 ? Math.min(m, 1) : null), "largest |μ|", false, "");
     drawLine("history-change", change.map(c => c > 0 ? c : null), "change", true, "second");
 }

@@ -59,6 +59,15 @@ Json to_object(const SolveRecord& solve) {
     object["seconds"] = {{"total", number(solve.seconds_total)}};
     put(object["seconds"], "harmonic", solve.seconds_harmonic);
     if (solve.folds_removed) object["folds_removed"] = true;
+    if (!solve.history.empty()) {
+        Json k = Json::array(), change = Json::array(), largest = Json::array();
+        for (const Iteration& iteration : solve.history) {
+            k.push_back(number(iteration.k));
+            change.push_back(number(iteration.change));
+            largest.push_back(number(iteration.largest));
+        }
+        object["history"] = {{"k", std::move(k)}, {"change", std::move(change)}, {"largest_mu", std::move(largest)}};
+    }
     return object;
 }
 
@@ -373,8 +382,8 @@ MapRecord map_record(const LeastMaximumMap& result) {
 }
 
 SolveRecord solve_record(const ExtremalMap& result, double seconds_total) {
-    return {result.iterations,   to_string(result.termination), result.factorizations, seconds_total, {},
-            result.folds_removed};
+    return {result.iterations, to_string(result.termination), result.factorizations, seconds_total, {},
+            result.folds_removed, result.history};
 }
 
 OntoRecord onto_record(const ExtremalMap& result, const std::string& target) {

@@ -49,6 +49,7 @@ struct SolveRecord {
     double seconds_total = 0;
     std::optional<double> seconds_harmonic;
     bool folds_removed = false;  ///< of the extremal map
+    std::vector<Iteration> history = {};  ///< of the extremal map; empty: none
 };
 
 /// Corners and kinks of source and boundary values.

@@ -100,10 +100,12 @@ void HamiltonIteration::run(HamiltonState& state, std::unique_ptr<DifferentialSp
     converged_ = false;
     history_.clear();
     const bool from_elsewhere = state.space != nullptr;
+    double largest = 0;
     if (!state.space) {
         state.space = std::move(smallest);
         coefficient_step_.set_space(*state.space);
         const Eigen::VectorXcd mu = beltrami_coefficient(map_step_.derivatives());
+        largest = mu.cwiseAbs().maxCoeff();
         step_ = coefficient_step_.solve(mu, {}, first_step());
         if (!state.space->preliminary()) grow(state, mu);
         state.direction = step_.direction;
@@ -111,7 +113,7 @@ void HamiltonIteration::run(HamiltonState& state, std::unique_ptr<DifferentialSp
     } else {
         coefficient_step_.set_space(*state.space);
     }
-    history_.push_back({state.k, 1.0, state.space->size()});
+    history_.push_back({state.k, 1.0, state.space->size(), largest});
 
     AndersonAcceleration anderson(options_.anderson_window);
     double change = 1, least_change = 1;
@@ -136,7 +138,7 @@ void HamiltonIteration::run(HamiltonState& state, std::unique_ptr<DifferentialSp
         }
         change = (step_.direction - state.direction).norm();
         const double k_change = std::abs(step_.k - state.k);
-        history_.push_back({step_.k, change, state.space->size()});
+        history_.push_back({step_.k, change, state.space->size(), mu.cwiseAbs().maxCoeff()});
         if (options_.progress && !options_.progress(iterations_, step_.k))
             throw Error(Cause::cancelled, "cancelled after iteration " + std::to_string(iterations_));
 

@@ -54,6 +54,7 @@ PageContent content_of(const Mesh& mesh, std::vector<PageMap> maps) {
             .maps = std::move(maps),
             .history_k = {0.4, 0.31, 0.3},
             .history_change = {0.1, 0.01, nan},
+            .history_largest = {1.7, 0.5, 0.4},
             .record_json = R"({"schema":1,"map":{"K":1.857,"K_lower":1.85,"K_max":null}})",
             .title = "bumpy square"};
 }
@@ -153,6 +154,7 @@ TEST(Page, ArraysHaveTheSizesOfTheMesh) {
         EXPECT_NEAR(histogram_total(map["histogram"]), 1.0, 1e-12);
     }
     EXPECT_TRUE(data["history"]["change"][2].is_null());
+    EXPECT_EQ(data["history"]["largest"][0], 1.7);
     EXPECT_EQ(data["record"]["map"]["K"], 1.857);
 }
 
@@ -302,6 +304,7 @@ TEST(Page, WritesPagesForTheBrowserCheck) {
     space.record_json = "{}";
     space.history_k.clear();
     space.history_change.clear();
+    space.history_largest.clear();
     write("quads_in_space.html", space);
     PageContent coarse = content_of(triangles, {flat_map(triangles)});
     coarse.drawn_faces = 500;
