@@ -98,7 +98,9 @@ TEST(StereographicCharts, KeepOrientationSideBySide) {
             else
                 south = std::min(south, corner.real());
         // In the first chart points are those of the projection.
-        if (height >= 0) EXPECT_LT(std::abs(z[0] - stereographic(points.row(faces[f][0]))), 1e-15);
+        if (height >= 0) {
+            EXPECT_LT(std::abs(z[0] - stereographic(points.row(faces[f][0]))), 1e-15);
+        }
     }
     EXPECT_LT(north, south);
 }

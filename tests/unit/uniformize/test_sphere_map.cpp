@@ -120,7 +120,9 @@ TEST(SphereMap, SpheroidConvergesWithOrderTwo) {
         const double rms = std::sqrt(areas.dot(d.cwiseAbs2()) / areas.sum());
         EXPECT_LT(d.maxCoeff(), 1.05 * table[level - 2][0]) << level;
         EXPECT_LT(rms, 1.05 * table[level - 2][1]) << level;
-        if (previous > 0) EXPECT_GT(std::log2(previous / rms), level == 3 ? 1.7 : 1.85) << level;
+        if (previous > 0) {
+            EXPECT_GT(std::log2(previous / rms), level == 3 ? 1.7 : 1.85) << level;
+        }
         previous = rms;
     }
 }
@@ -273,6 +275,31 @@ TEST(SphereMap, PolygonsOfAnyNumberOfCorners) {
                     (of_prism.positions.row(0) - of_prism.positions.row(6)).norm(), 1e-9);
 }
 
+TEST(SphereMap, QuadsMayTurnInButNotFold) {
+    // Cubes bent so far that no map is found that keeps every corner of every quad convex; no triangle is flipped.
+    for (const std::uint64_t seed : {4, 24}) {
+        Random random(seed);
+        Mesh cube;
+        cube.positions.resize(8, 3);
+        for (int v = 0; v < 8; ++v) {
+            cube.positions.row(v) << v % 2, v / 2 % 2, v / 4;
+            for (int d = 0; d < 3; ++d) cube.positions(v, d) += random.uniform(-0.6, 0.6);
+        }
+        for (const auto& f :
+             {std::array{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}})
+            cube.faces.add({f[0], f[1], f[2], f[3]});
+        const SphereMap map = sphere_map(cube);
+        const Surface surface(split_unusable_faces(cube).mesh);
+        const SphereFaces faces(surface);
+        EXPECT_FALSE(faces.flipped(map.positions).empty());
+        EXPECT_TRUE(faces.upright_as_triangles(map.positions));
+        EXPECT_TRUE(map.distortion.flipped.empty());
+        ASSERT_FALSE(map.warnings.empty());
+        EXPECT_EQ(map.warnings[0].kind, WarningKind::turned_in);
+        EXPECT_FALSE(map.warnings[0].where.indices.empty());
+    }
+}
+
 TEST(SphereMap, OtherMethods) {
     const Surface surface(bumpy_sphere(3));
     const SphereMap equivalent = sphere_map(surface);
@@ -370,8 +397,9 @@ TEST_P(RealSphereMap, IsNoWorseThanKnown) {
     EXPECT_LT(map.distortion.standard_deviation, GetParam().deviation);
     EXPECT_LT(map.distortion.max, GetParam().largest);
     EXPECT_LT(map.centre_distance, 1e-10);
-    if (surface.operators.sample_count() == mesh.face_count())
+    if (surface.operators.sample_count() == mesh.face_count()) {
         EXPECT_NEAR(covering_degree(mesh.faces, map.positions), 1, 1e-9);
+    }
 }
 
 // Of fish_quad and spot_control_mesh the table's values are of triangles; here quads are measured as such.
@@ -381,8 +409,8 @@ INSTANTIATE_TEST_SUITE_P(Scans, RealSphereMap,
                                          Known{"hand_closed.obj", .04585, .0385, .1765},
                                          Known{"fish_quad.obj", .0438, .047, .7},
                                          Known{"spot_control_mesh.obj", .34, .26, .996}),
-                         [](const auto& info) {
-                             std::string name = info.param.name;
+                         [](const auto& test) {
+                             std::string name = test.param.name;
                              return name.substr(0, name.find('.'));
                          });
 
