@@ -1,5 +1,5 @@
-// Boundary conditions that mix: a square whose left and right sides are prescribed while the upper and lower ones slide.
-// z ↦ 2 Re z + i Im z is extremal, K* = 2.
+// Boundary conditions that mix: a square whose left and right sides are prescribed while the upper and lower ones
+// slide. z ↦ 2 Re z + i Im z is extremal, K* = 2.
 #include <beltrami/beltrami.h>
 
 #include <cstdio>

@@ -68,8 +68,8 @@ Figure figure_07(Output& output) {
         "of no known map likewise."};
     Table table{"", usual_head("case"), {}};
     Table order{"",
-                {"case", "triangles", "k", "exact k", "deviation of abs(μ)", "not evened", "of the interpolated exact map",
-                 "largest vertex error"},
+                {"case", "triangles", "k", "exact k", "deviation of abs(μ)", "not evened",
+                 "of the interpolated exact map", "largest vertex error"},
                 {}};
     Table speed{"Iterations until the least-squares energy changes by less than 1 %",
                 {"case", "extremal map", "alternation"},
@@ -131,14 +131,16 @@ Figure figure_07(Output& output) {
         if (!curve.x.empty()) curves.push_back(std::move(curve));
     }
     figure.tables = {std::move(table), std::move(order), std::move(speed)};
-    figure.pictures.push_back({"figure_08",
-                               "Deviation of |μ| from the exact k (from the computed k where none is known), of the maps as the iteration "
-                               "leaves them.",
-                               {curves_panel(curves, "", "triangles", "deviation of |μ|")}});
+    figure.pictures.push_back(
+        {"figure_08",
+         "Deviation of |μ| from the exact k (from the computed k where none is known), of the maps as the iteration "
+         "leaves them.",
+         {curves_panel(curves, "", "triangles", "deviation of |μ|")}});
     figure.remarks.push_back(
         "The map drawn with straight triangles has |μ| off by a first power of the mesh size even where it is exact; "
         "ours is as good, or better. By default |μ| is evened out only where the map is far from "
-        "even, so a coarse mesh can end with less deviation than a fine one (the sector); the curves are those of maps that are not "
+        "even, so a coarse mesh can end with less deviation than a fine one (the sector); the curves are those of maps "
+        "that are not "
         "evened. k and K, which come from pairings with φ, converge faster. On the coarsest mesh "
         "of "
         "ring_to_lobes three lobes are too much for its few vertices, and k is far off.");

@@ -23,26 +23,11 @@ const Page& prescribed() {
         "beyond.\n"
         "Boundaries that slide have a [page of their own](gallery-sliding.md).\n\n",
         {
-            {"figure_01", figure_01},
-            {"figure_02", figure_02},
-            {"figure_03", figure_03},
-            {"figure_05", figure_05},
-            {"figure_06", figure_06},
-            {"figure_07", figure_07},
-            {"figure_09", figure_09},
-            {"figure_10", figure_10},
-            {"figure_11", figure_11},
-            {"figure_12", figure_12},
-            {"figure_13", figure_13},
-            {"figure_14", figure_14},
-            {"figure_15", figure_15},
-            {"figure_16", figure_16},
-            {"figure_17", figure_17},
-            {"figure_18", figure_18},
-            {"figure_19", figure_19},
-            {"corners", corners},
-            {"scan", scan},
-            {"holes_27", holes_27},
+            {"figure_01", figure_01}, {"figure_02", figure_02}, {"figure_03", figure_03}, {"figure_05", figure_05},
+            {"figure_06", figure_06}, {"figure_07", figure_07}, {"figure_09", figure_09}, {"figure_10", figure_10},
+            {"figure_11", figure_11}, {"figure_12", figure_12}, {"figure_13", figure_13}, {"figure_14", figure_14},
+            {"figure_15", figure_15}, {"figure_16", figure_16}, {"figure_17", figure_17}, {"figure_18", figure_18},
+            {"figure_19", figure_19}, {"corners", corners},     {"scan", scan},           {"holes_27", holes_27},
         }};
     return page;
 }

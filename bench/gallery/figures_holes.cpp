@@ -68,8 +68,10 @@ Figure figure_14(Output& output) {
     figure.pictures.back().panels.insert(figure.pictures.back().panels.begin(), picture);
     figure.pictures.back().caption = "A picture on the annulus, deformed with it.";
     figure.remarks.push_back(
-        "\"Not evened\" is the extremal map as the iteration leaves it, for pictures the one to take (`--evening never`): "
-        "on the left |φ| is small, what the map does there hardly enters k and the bounds, φ is badly determined, and |μ| stays below "
+        "\"Not evened\" is the extremal map as the iteration leaves it, for pictures the one to take (`--evening "
+        "never`): "
+        "on the left |φ| is small, what the map does there hardly enters k and the bounds, φ is badly determined, and "
+        "|μ| stays below "
         "k. Evening out raises it to k there by wrinkles of the size of a triangle, which the picture shows.");
     return figure;
 }

@@ -152,38 +152,46 @@ void add_trajectories(Picture& picture, const std::string& name, const Surface& 
 
 Figure figure_01(Output&) {
     Figure figure{"Figures 1 and 4: what μ means, and what a Teichmüller map is",
-                  "*The paper:* A small circle becomes an ellipse with axes 1 + |μ| and 1 − |μ|, the long one at the angle arg(μ)/2 before "
-                  "the map turns it (Fig. 1). A Teichmüller map is conformal, then affine, then conformal again: h ∘ A_k ∘ g (Fig. 4)."};
+                  "*The paper:* A small circle becomes an ellipse with axes 1 + |μ| and 1 − |μ|, the long one at the "
+                  "angle arg(μ)/2 before "
+                  "the map turns it (Fig. 1). A Teichmüller map is conformal, then affine, then conformal again: h ∘ "
+                  "A_k ∘ g (Fig. 4)."};
     const Complex mu = std::polar(0.5, 1.2);
-    const Complex along = std::polar(1 + std::abs(mu), std::arg(mu) / 2), across = Complex(0, 1) * std::polar(1 - std::abs(mu), std::arg(mu) / 2);
+    const Complex along = std::polar(1 + std::abs(mu), std::arg(mu) / 2),
+                  across = Complex(0, 1) * std::polar(1 - std::abs(mu), std::arg(mu) / 2);
     figure.pictures.push_back(
         {"figure_01",
          "The circle |z| = 1 and its image under z + μ z̄, |μ| = .5, arg μ = 1.2: axes of 1.5 and .5 at the angle .6.",
-         {lines_panel({{"k", 1, {circle(0, 1)}},
-                       {"C0", 1.6, {mapped({circle(0, 1)}, [&](Complex z) { return z + mu * std::conj(z); })[0]}},
-                       {"C1", 1, {{-along, along}}},
-                       {"C2", 1, {{-across, across}}}},
-                      "circle and ellipse",
-                      {{0.6 * along + Complex(0.15, -0.12), "1 + |μ|"}, {1.15 * across + Complex(0.3, 0.05), "1 − |μ|"}})}});
+         {lines_panel(
+             {{"k", 1, {circle(0, 1)}},
+              {"C0", 1.6, {mapped({circle(0, 1)}, [&](Complex z) { return z + mu * std::conj(z); })[0]}},
+              {"C1", 1, {{-along, along}}},
+              {"C2", 1, {{-across, across}}}},
+             "circle and ellipse",
+             {{0.6 * along + Complex(0.15, -0.12), "1 + |μ|"}, {1.15 * across + Complex(0.3, 0.05), "1 − |μ|"}})}});
     const DiskLines lines = disk_lines();
     const PlaneFunction g = [](Complex z) { return z + 0.3 * z * z; },
                         affine = [&](Complex z) { return g(z) + 0.5 * std::conj(g(z)); },
                         all = [&](Complex z) { return std::exp(0.6 * affine(z)); };
-    figure.pictures.push_back({"figure_04",
-                               "The exact composition of Figure 7, k = ½: z, g(z) = z + .3z², g + ½ conj(g), exp(.6 ·).",
-                               {composition_panel(lines, "z", [](Complex z) { return z; }), composition_panel(lines, "g: conformal", g),
-                                composition_panel(lines, "A_k: affine", affine), composition_panel(lines, "h: conformal", all)}});
+    figure.pictures.push_back(
+        {"figure_04",
+         "The exact composition of Figure 7, k = ½: z, g(z) = z + .3z², g + ½ conj(g), exp(.6 ·).",
+         {composition_panel(lines, "z", [](Complex z) { return z; }), composition_panel(lines, "g: conformal", g),
+          composition_panel(lines, "A_k: affine", affine), composition_panel(lines, "h: conformal", all)}});
     return figure;
 }
 
 Figure figure_05(Output&) {
-    Figure figure{"Figure 5: a zero and a pole",
-                  "*The paper:* The directions of stretch change rapidly near zeros and poles of the quadratic differential."};
+    Figure figure{
+        "Figure 5: a zero and a pole",
+        "*The paper:* The directions of stretch change rapidly near zeros and poles of the quadratic differential."};
     Table table{"The unit disk to itself", usual_head("boundary values"), {}};
-    Picture picture{"figure_05",
-                    "Trajectories of φ around a zero and around a pole, and their images: along the blue lines the map stretches by 1 + k, along the orange "
-                    "ones by 1 − k, up to a common factor. Three of each kind meet at the zero, one of each at the pole.",
-                    {}};
+    Picture picture{
+        "figure_05",
+        "Trajectories of φ around a zero and around a pole, and their images: along the blue lines the map stretches "
+        "by 1 + k, along the orange "
+        "ones by 1 − k, up to a common factor. Three of each kind meet at the zero, one of each at the pole.",
+        {}};
     DomainOptions domain;
     domain.edge_length = 0.03;
     domain.sources = {{Eigen::Vector2d::Zero(), 0.004}};
@@ -208,11 +216,13 @@ Figure figure_05(Output&) {
 
 Figure figure_06(Output& output) {
     Figure figure{"Figure 6: |μ| of a discrete conformal map",
-                  "*The paper:* Even a conformal map of high quality (conformal equivalence) has |μ| far from zero on many triangles: no piecewise linear map is "
+                  "*The paper:* Even a conformal map of high quality (conformal equivalence) has |μ| far from zero on "
+                  "many triangles: no piecewise linear map is "
                   "perfectly even."};
-    Table table{"By `flatten`, the boundary keeping its lengths",
-                {"surface", "triangles", "mean abs(μ)", "std", "p99", "max", "flips", "triangles with abs(μ) > .02", "> .1"},
-                {}};
+    Table table{
+        "By `flatten`, the boundary keeping its lengths",
+        {"surface", "triangles", "mean abs(μ)", "std", "p99", "max", "flips", "triangles with abs(μ) > .02", "> .1"},
+        {}};
     std::vector<std::pair<std::string, Mesh>> surfaces;
     Mesh hills = rectangle(2, 2, 70, 70);
     Mesh lifted;
@@ -220,22 +230,27 @@ Figure figure_06(Output& output) {
     lifted.positions.resize(hills.vertex_count(), 3);
     for (int v = 0; v < hills.vertex_count(); ++v) {
         const double x = hills.positions(v, 0) - 1, y = hills.positions(v, 1) - 1;
-        lifted.positions.row(v) << x, y, 0.5 * std::exp(-6 * ((x - .25) * (x - .25) + (y - .2) * (y - .2))) + 0.15 * std::sin(3 * x + y);
+        lifted.positions.row(v) << x, y,
+            0.5 * std::exp(-6 * ((x - .25) * (x - .25) + (y - .2) * (y - .2))) + 0.15 * std::sin(3 * x + y);
     }
     surfaces.emplace_back("hilly square", std::move(lifted));
-    if (const char* folder = std::getenv("BELTRAMI_MESHES"); folder && std::filesystem::exists(std::filesystem::path(folder) / "human_face.obj"))
+    if (const char* folder = std::getenv("BELTRAMI_MESHES");
+        folder && std::filesystem::exists(std::filesystem::path(folder) / "human_face.obj"))
         surfaces.emplace_back("human_face", read_mesh(std::filesystem::path(folder) / "human_face.obj").mesh);
-    Picture picture{"figure_06", "A checkerboard of the plane by the conformal map, and |μ|, every triangle counted alike.", {}};
+    Picture picture{
+        "figure_06", "A checkerboard of the plane by the conformal map, and |μ|, every triangle counted alike.", {}};
     for (const auto& [name, mesh] : surfaces) {
         const Surface surface(mesh);
         const Solved solved = solve_with(surface, name, [&] { return flatten(mesh).positions; });
         if (!solved) continue;
         const Distortion& d = solved.distortion;
         const auto above = [&](double limit) {
-            return number(100.0 * static_cast<double>((d.face_abs_mu.array() > limit).count()) / mesh.face_count(), 1) + " %";
+            return number(100.0 * static_cast<double>((d.face_abs_mu.array() > limit).count()) / mesh.face_count(), 1) +
+                   " %";
         };
-        table.rows.push_back({name, std::to_string(mesh.face_count()), number(d.mean), number(d.standard_deviation), number(d.p99), number(d.max, 3),
-                              std::to_string(d.flipped.size()), above(0.02), above(0.1)});
+        table.rows.push_back({name, std::to_string(mesh.face_count()), number(d.mean), number(d.standard_deviation),
+                              number(d.p99), number(d.max, 3), std::to_string(d.flipped.size()), above(0.02),
+                              above(0.1)});
         const std::string data = output.write("figure_06_" + name, surface, solved);
         const bool face = name == "human_face";
         picture.panels.push_back(surface_panel(data, name, "checker", face ? -90 : -60, face ? 84 : 50, 24));

@@ -160,10 +160,11 @@ Figure figure_11(Output& output) {
         picture.panels.push_back(map_panel(lines.back().second, name, 0.6));
     }
     figure.tables.push_back(std::move(table));
-    table = {"As the paper prints it, abs(μ)^p itself from the harmonic start with its flips, by a quasi-Newton method "
-             "(L-BFGS) with exact gradients, at most 3 000 steps; the largest abs(μ) by a logarithmic barrier",
-             {"energy", "mean abs(μ)", "std", "p99", "max", "K_max", "flips", "steps", "seconds"},
-             {}};
+    table = {
+        "As the paper prints it, abs(μ)^p itself from the harmonic start with its flips, by a quasi-Newton method "
+        "(L-BFGS) with exact gradients, at most 3 000 steps; the largest abs(μ) by a logarithmic barrier",
+        {"energy", "mean abs(μ)", "std", "p99", "max", "K_max", "flips", "steps", "seconds"},
+        {}};
     Picture printed{"figure_11_powers", "The maps that the direct descent reaches.", {}};
     for (const double p : {2.0, 5.0, 0.0}) {
         int steps = 0;
@@ -175,10 +176,10 @@ Figure figure_11(Output& output) {
             return std::move(found.map);
         });
         add(name, solved, steps);
-        printed.panels.push_back(map_panel(
-            output.write("figure_11_k" + number(p, 0), surface, solved),
-            (p > 0 ? "p = " + number(p, 0) : "largest") + ": " + std::to_string(solved.distortion.flipped.size()) + " flips",
-            0.6));
+        printed.panels.push_back(map_panel(output.write("figure_11_k" + number(p, 0), surface, solved),
+                                           (p > 0 ? "p = " + number(p, 0) : "largest") + ": " +
+                                               std::to_string(solved.distortion.flipped.size()) + " flips",
+                                           0.6));
     }
     figure.pictures.push_back(std::move(picture));
     figure.pictures.push_back(std::move(printed));
@@ -193,7 +194,8 @@ Figure figure_11(Output& output) {
         "extremal map and goes to p = 128: on this mesh the largest |μ| can be smaller than that of the extremal map, "
         "which is the minimum of the continuous problem only.");
     figure.remarks.push_back(
-        "Powers of |μ| itself behave as the paper says: finite on folds, they let vertices run far out of the image at the cost of a few flipped "
+        "Powers of |μ| itself behave as the paper says: finite on folds, they let vertices run far out of the image at "
+        "the cost of a few flipped "
         "faces, whatever p, and so does the largest |μ|, whose barrier lets nothing through that is above it.");
     return figure;
 }

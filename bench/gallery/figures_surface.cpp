@@ -199,9 +199,12 @@ Figure figure_12(Output& output) {
     compare("figure_12_outline", "the outline with a step, features free", stepped_outline(problem, 0.3),
             {"harmonic", "ARAP", "extremal"});
     figure.remarks.push_back(
-        "Onto the rectangle our part is gentler than the fandisk, and no method flips many faces. With a step in the outline, as the front of the "
-        "fandisk has them, harmonic and ARAP maps fold at its corners and the extremal map does not. Pinned features cut the part into pieces, each of "
-        "which is mapped by its own extremal map; k is that of the worst, and the histogram has a peak for every k of a piece. Features that slide leave φ a real jump "
+        "Onto the rectangle our part is gentler than the fandisk, and no method flips many faces. With a step in the "
+        "outline, as the front of the "
+        "fandisk has them, harmonic and ARAP maps fold at its corners and the extremal map does not. Pinned features "
+        "cut the part into pieces, each of "
+        "which is mapped by its own extremal map; k is that of the worst, and the histogram has a peak for every k of "
+        "a piece. Features that slide leave φ a real jump "
         "across them.");
     return figure;
 }
@@ -294,11 +297,13 @@ void with_markers(Output& output, Figure& figure, const Sheet& sheet) {
         const Solved corrected = solve(in_metric_of(mesh, folded.map), boundary, "extremal");
         add("extremal", "ARAP with markers", corrected);
         if (corrected)
-            figure.remarks.push_back(sheet.caption + ": the folded ARAP map with markers, corrected by the extremal map in its own metric, " +
-                                     std::to_string(folded.distortion.flipped.size()) + " flipped faces → " +
-                                     std::to_string(corrected.distortion.flipped.size()) + "; vertices move by " +
-                                     number((corrected.map - folded.map).cwiseAbs().mean()) + " in the mean and " +
-                                     number((corrected.map - folded.map).cwiseAbs().maxCoeff()) + " at most.");
+            figure.remarks.push_back(
+                sheet.caption +
+                ": the folded ARAP map with markers, corrected by the extremal map in its own metric, " +
+                std::to_string(folded.distortion.flipped.size()) + " flipped faces → " +
+                std::to_string(corrected.distortion.flipped.size()) + "; vertices move by " +
+                number((corrected.map - folded.map).cwiseAbs().mean()) + " in the mean and " +
+                number((corrected.map - folded.map).cwiseAbs().maxCoeff()) + " at most.");
     }
     figure.tables.push_back(std::move(table));
     figure.pictures.push_back(std::move(picture));
@@ -312,22 +317,32 @@ Figure figure_18(Output& output) {
                   "*The paper:* A quasiconformal parametrization in the metric of an ARAP map reduces the artifacts at "
                   "constraints, at the cost of more distortion elsewhere; so markers can be moved to where they should "
                   "be. The metric of a map with folds serves to correct it."};
+    with_markers(
+        output, figure,
+        {"figure_18",
+         "A hilly square, its boundary where its ARAP map has it, four markers moved",
+         [](double x, double y) {
+             return 0.5 * std::exp(-6 * ((x - .25) * (x - .25) + (y - .2) * (y - .2))) + 0.15 * std::sin(3 * x + y);
+         },
+         {{{-.5, -.5}, {.2, .05}}, {{.5, -.5}, {.05, .2}}, {{.5, .5}, {-.2, -.05}}, {{-.5, .5}, {-.05, -.2}}}});
     with_markers(output, figure,
-                 {"figure_18", "A hilly square, its boundary where its ARAP map has it, four markers moved",
+                 {"figure_18_nose",
+                  "A sheet with a steep nose and a dent, six markers moved up and down in turn",
                   [](double x, double y) {
-                      return 0.5 * std::exp(-6 * ((x - .25) * (x - .25) + (y - .2) * (y - .2))) + 0.15 * std::sin(3 * x + y);
+                      return 0.9 * std::exp(-14 * (x * x + y * y)) -
+                             0.4 * std::exp(-10 * ((x + .5) * (x + .5) + (y - .45) * (y - .45)));
                   },
-                  {{{-.5, -.5}, {.2, .05}}, {{.5, -.5}, {.05, .2}}, {{.5, .5}, {-.2, -.05}}, {{-.5, .5}, {-.05, -.2}}}});
-    with_markers(output, figure,
-                 {"figure_18_nose", "A sheet with a steep nose and a dent, six markers moved up and down in turn",
-                  [](double x, double y) {
-                      return 0.9 * std::exp(-14 * (x * x + y * y)) - 0.4 * std::exp(-10 * ((x + .5) * (x + .5) + (y - .45) * (y - .45)));
-                  },
-                  {{{-.6, -.1}, {0, .18}}, {{-.36, -.1}, {0, -.18}}, {{-.12, -.45}, {0, .18}}, {{.12, -.45}, {0, -.18}},
-                   {{.36, -.1}, {0, .18}}, {{.6, -.1}, {0, -.18}}}});
+                  {{{-.6, -.1}, {0, .18}},
+                   {{-.36, -.1}, {0, -.18}},
+                   {{-.12, -.45}, {0, .18}},
+                   {{.12, -.45}, {0, -.18}},
+                   {{.36, -.1}, {0, .18}},
+                   {{.6, -.1}, {0, -.18}}}});
     figure.remarks.push_back(
-        "In the metric of a map, the map itself has μ = 0 and what is moved is spread evenly; `--metric vt` takes it from the texture "
-        "coordinates of the mesh. Faces that are flipped there count by their edge lengths; where such a metric is far from flat it is mapped to the plane "
+        "In the metric of a map, the map itself has μ = 0 and what is moved is spread evenly; `--metric vt` takes it "
+        "from the texture "
+        "coordinates of the mesh. Faces that are flipped there count by their edge lengths; where such a metric is far "
+        "from flat it is mapped to the plane "
         "conformally first.");
     return figure;
 }
@@ -338,8 +353,10 @@ Figure figure_19(Output& output) {
                   "more than 800 "
                   "flipped triangles, ARAP more than 600, the extremal map none."};
     figure.remarks.push_back(
-        "The paper does not give its circles; ours are three rings of one, five and five. φ has a corner of the source at every corner "
-        "of the pentagons; on a mesh with a quarter of the triangles, eight edges a side, the bracket of K* is 4.85 to 5.11, ten times as wide. Ragged "
+        "The paper does not give its circles; ours are three rings of one, five and five. φ has a corner of the source "
+        "at every corner "
+        "of the pentagons; on a mesh with a quarter of the triangles, eight edges a side, the bracket of K* is 4.85 to "
+        "5.11, ten times as wide. Ragged "
         "squares are the wrinkles of evening out, as in Figure 14.");
     const Problem problem = named_problem("pierced_ball", 0.0175);
     Comparison{output, figure, "figure_19", problem, problem.boundary, 30, 20, 24}.run(

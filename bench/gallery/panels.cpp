@@ -71,7 +71,8 @@ json surface_panel(const std::string& data, const std::string& title, const std:
             {"squares", squares}, {"max", max_mu},      {"highlights", highlights}};
 }
 
-json lines_panel(const std::vector<Lines>& groups, const std::string& title, const std::vector<std::pair<Complex, std::string>>& labels) {
+json lines_panel(const std::vector<Lines>& groups, const std::string& title,
+                 const std::vector<std::pair<Complex, std::string>>& labels) {
     json list = json::array(), texts = json::array();
     for (const Lines& group : groups) {
         json lines = json::array();
@@ -81,7 +82,8 @@ json lines_panel(const std::vector<Lines>& groups, const std::string& title, con
             for (const Complex p : line) points.push_back({p.real(), p.imag()});
             lines.push_back(std::move(points));
         }
-        if (!lines.empty()) list.push_back({{"colour", group.colour}, {"width", group.width}, {"lines", std::move(lines)}});
+        if (!lines.empty())
+            list.push_back({{"colour", group.colour}, {"width", group.width}, {"lines", std::move(lines)}});
     }
     for (const auto& [place, text] : labels) texts.push_back({place.real(), place.imag(), text});
     return {{"kind", "lines"}, {"groups", std::move(list)}, {"labels", std::move(texts)}, {"title", title}};

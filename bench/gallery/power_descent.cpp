@@ -31,7 +31,8 @@ Minimum minimise(const Function& f, Eigen::VectorXd x, int max_iterations, doubl
             alphas.push_back(pair->first.dot(direction) / pair->first.dot(pair->second));
             direction -= alphas.back() * pair->second;
         }
-        if (!pairs.empty()) direction *= pairs.back().first.dot(pairs.back().second) / pairs.back().second.squaredNorm();
+        if (!pairs.empty())
+            direction *= pairs.back().first.dot(pairs.back().second) / pairs.back().second.squaredNorm();
         for (const auto& [step, change] : pairs) {
             const double beta = change.dot(direction) / step.dot(change);
             direction += (alphas.back() - beta) * step;
@@ -84,12 +85,17 @@ class Unknowns {
             if (!held[v]) free_.push_back(v);
     }
     /// @pre the vertex is one of the fixed ones
-    void slide(int vertex, const TargetCurve& curve, double parameter) { sliding_.push_back({vertex, &curve, parameter}); }
+    void slide(int vertex, const TargetCurve& curve, double parameter) {
+        sliding_.push_back({vertex, &curve, parameter});
+    }
 
-    Eigen::Index size() const { return 2 * static_cast<Eigen::Index>(free_.size()) + static_cast<Eigen::Index>(sliding_.size()); }
+    Eigen::Index size() const {
+        return 2 * static_cast<Eigen::Index>(free_.size()) + static_cast<Eigen::Index>(sliding_.size());
+    }
     Eigen::VectorXd coordinates() const {
         Eigen::VectorXd x(size());
-        for (std::size_t i = 0; i < free_.size(); ++i) x.segment<2>(2 * i) << map_[free_[i]].real(), map_[free_[i]].imag();
+        for (std::size_t i = 0; i < free_.size(); ++i)
+            x.segment<2>(2 * i) << map_[free_[i]].real(), map_[free_[i]].imag();
         for (std::size_t i = 0; i < sliding_.size(); ++i) x[2 * free_.size() + i] = sliding_[i].parameter;
         return x;
     }
@@ -143,7 +149,8 @@ class Unknowns {
 
 /// h(|μ|²), |μ|² = |∂̄f|²/|∂f|²; @p slope is h′.
 Unknowns::Term of_square(double value, double slope, Complex dz, Complex dzbar) {
-    return {value, -2 * slope * std::norm(dzbar) / (std::norm(dz) * std::norm(dz)) * dz, 2 * slope / std::norm(dz) * dzbar};
+    return {value, -2 * slope * std::norm(dzbar) / (std::norm(dz) * std::norm(dz)) * dz,
+            2 * slope / std::norm(dz) * dzbar};
 }
 
 }  // namespace
@@ -204,7 +211,8 @@ Descent nearest_coefficient(const Surface& source, const TargetDomain& target, c
     Unknowns unknowns(source, boundary, start.map);
     for (const LoopOnto& onto : start.loops) {
         const std::vector<int>& loop = source.topology.boundary_loops[onto.loop];
-        for (std::size_t i = 0; i < loop.size(); ++i) unknowns.slide(loop[i], target.curve(onto.curve), onto.parameters[i]);
+        for (std::size_t i = 0; i < loop.size(); ++i)
+            unknowns.slide(loop[i], target.curve(onto.curve), onto.parameters[i]);
     }
     const double area = source.operators.area();
     const auto energy = [&](const Eigen::VectorXd& x, Eigen::VectorXd& gradient) {

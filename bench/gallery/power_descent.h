@@ -21,8 +21,8 @@ Descent least_power(const Surface& surface, const BoundaryCondition& boundary, c
 Descent least_largest(const Surface& surface, const BoundaryCondition& boundary, const Eigen::VectorXcd& start,
                       int max_iterations);
 
-/// Least (Σ A |μ_f − ν|^p/Σ A)^{1/p} over the maps whose boundary vertices slide along their curves: the problem (24) of
-/// Ng, Gu & Lui for the power p, by L-BFGS.
+/// Least (Σ A |μ_f − ν|^p/Σ A)^{1/p} over the maps whose boundary vertices slide along their curves: the problem (24)
+/// of Ng, Gu & Lui for the power p, by L-BFGS.
 /// @param start with boundary vertices on the curves of @p target
 Descent nearest_coefficient(const Surface& source, const TargetDomain& target, const SlidMap& start,
                             const Eigen::VectorXcd& nu, double p, int max_iterations);

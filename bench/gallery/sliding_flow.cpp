@@ -111,17 +111,18 @@ void found_again(Output& output, Figure& figure, Table& table, const Given& exam
         table.rows.push_back({example.caption, number(h, 3), std::to_string(source.mesh.face_count()),
                               number(distortion(source.operators, course.given).max, 3), number(course.start, 3),
                               first_below(1e-3), first_below(1e-9), std::to_string(course.flow.iterations),
-                              scientific(distance(course.flow.map, course.given)),
-                              scientific(course.flow.error.sup), std::to_string(course.flow.distortion.flipped.size())});
+                              scientific(distance(course.flow.map, course.given)), scientific(course.flow.error.sup),
+                              std::to_string(course.flow.distortion.flipped.size())});
         if (h == 0.05) {
             const Eigen::VectorXd given_mu = distortion(source.operators, course.given).face_abs_mu;
             const std::string given = output.write(example.name + "_given", source.mesh, course.given, given_mu),
                               found = output.write(example.name + "_found", source.mesh, course.flow.map,
                                                    course.flow.distortion.face_abs_mu);
-            figure.pictures.push_back({example.name, example.caption + ": the source, the given map, the one found from its μ, and the errors.",
-                                       {circles_panel(given, "source", "source", 22),
-                                        circles_panel(given, "given map", "image", 22),
-                                        circles_panel(found, "found from μ", "image", 22)}});
+            figure.pictures.push_back(
+                {example.name,
+                 example.caption + ": the source, the given map, the one found from its μ, and the errors.",
+                 {circles_panel(given, "source", "source", 22), circles_panel(given, "given map", "image", 22),
+                  circles_panel(found, "found from μ", "image", 22)}});
         }
         coordinates.push_back(std::move(course.coordinates));
         coefficient.push_back(std::move(course.coefficient));
@@ -136,10 +137,12 @@ void found_again(Output& output, Figure& figure, Table& table, const Given& exam
 void swirled(Output& output, Figure& figure) {
     const std::vector<Hole> holes{{0, 0.5, 0.1}, {-0.4, -0.3, 0.1}, {0.4, -0.3, 0.1}};
     const TargetDomain target = image_domain(holes, swirl);
-    Table table{"Example 3: f = e^{1.5i} z e^{1.5i abs(z)}, μ given at the triangles' barycentres. Orders are against the row above",
-                {"h", "triangles", "iterations", "largest error of f", "order", "largest error of μ", "order",
-                 "root mean square", "order", "flips", "seconds"},
-                {}};
+    Table table{
+        "Example 3: f = e^{1.5i} z e^{1.5i abs(z)}, μ given at the triangles' barycentres. Orders are against the row "
+        "above",
+        {"h", "triangles", "iterations", "largest error of f", "order", "largest error of μ", "order",
+         "root mean square", "order", "flips", "seconds"},
+        {}};
     Curve map_curve{"map, largest", {}, {}}, sup_curve{"μ, largest", {}, {}}, l2_curve{"μ, root mean square", {}, {}};
     Picture picture{"sliding_03", "Example 3: small circles of the source and their images; errors against h.", {}};
     for (const double h : {0.08, 0.04, 0.02, 0.01}) {
@@ -161,8 +164,9 @@ void swirled(Output& output, Figure& figure) {
             const std::size_t n = curve.y.size();
             return n < 2 ? "" : number(std::log2(curve.y[n - 2] / curve.y[n - 1]), 2);
         };
-        for (const auto& [curve, error] : {std::pair{&map_curve, distance(flow.map, exact)},
-                                           std::pair{&sup_curve, flow.error.sup}, std::pair{&l2_curve, flow.error.l2}}) {
+        for (const auto& [curve, error] :
+             {std::pair{&map_curve, distance(flow.map, exact)}, std::pair{&sup_curve, flow.error.sup},
+              std::pair{&l2_curve, flow.error.l2}}) {
             curve->x.push_back(h);
             curve->y.push_back(error);
         }
@@ -224,13 +228,15 @@ void chosen_steps(Figure& figure, const Given& example) {
     figure.tables.push_back(std::move(table));
 }
 
-/// Their problem (24) with the power p in place of the maximum, from the flow's map, which is that for p = 2 but for the
-/// weight |∂f|².
+/// Their problem (24) with the power p in place of the maximum, from the flow's map, which is that for p = 2 but for
+/// the weight |∂f|².
 void higher_powers(Figure& figure, const Given& example) {
-    Table table{"The flow minimises Σ A abs(∂̄f − ν∂f)²; beside it the least Σ A abs(μ_f − ν)^p of eq. (24), p raised step by step, at most 1 500 "
-                "steps of L-BFGS each (h = .1)",
-                {"coefficient ν", "minimised", "sup abs(μ_f − ν)", "root mean square", "flips", "steps", "seconds"},
-                {}};
+    Table table{
+        "The flow minimises Σ A abs(∂̄f − ν∂f)²; beside it the least Σ A abs(μ_f − ν)^p of eq. (24), p raised step by "
+        "step, at most 1 500 "
+        "steps of L-BFGS each (h = .1)",
+        {"coefficient ν", "minimised", "sup abs(μ_f − ν)", "root mean square", "flips", "steps", "seconds"},
+        {}};
     const Surface source(disk_with_holes(example.holes, 0.1));
     const Eigen::VectorXcd exact = distortion(source.operators, example.map(source)).mu;
     for (const bool half : {false, true}) {
@@ -243,8 +249,9 @@ void higher_powers(Figure& figure, const Given& example) {
         });
         const auto add = [&](const std::string& what, const Solved& solved, int steps) {
             const CoefficientError error = coefficient_error(source, solved.map, nu);
-            table.rows.push_back({name, what, scientific(error.sup), scientific(error.l2), std::to_string(solved.distortion.flipped.size()),
-                                  std::to_string(steps), number(solved.seconds, 2)});
+            table.rows.push_back({name, what, scientific(error.sup), scientific(error.l2),
+                                  std::to_string(solved.distortion.flipped.size()), std::to_string(steps),
+                                  number(solved.seconds, 2)});
         };
         add("the flow", flow, at.iterations);
         if (!half) continue;  // nothing is left
@@ -268,10 +275,11 @@ void higher_powers(Figure& figure, const Given& example) {
 }  // namespace
 
 Figure sliding_01(Output& output) {
-    Figure figure{"Examples 1 to 3: the Beltrami holomorphic flow",
-                  "*The paper:* A map is given by its coefficient alone and found again by the flow; the errors of the "
-                  "coordinates and of μ go to 0 in less than 10 iterations (Examples 1 and 2). The coefficient of a smooth map: "
-                  "errors against the mesh size (Example 3)."};
+    Figure figure{
+        "Examples 1 to 3: the Beltrami holomorphic flow",
+        "*The paper:* A map is given by its coefficient alone and found again by the flow; the errors of the "
+        "coordinates and of μ go to 0 in less than 10 iterations (Examples 1 and 2). The coefficient of a smooth map: "
+        "errors against the mesh size (Example 3)."};
     const std::vector<Hole> two{{0.4, -0.02, 0.26}, {-0.32, 0.09, 0.16}},
         three{{-0.11, -0.46, 0.16}, {-0.34, 0.37, 0.14}, {0.36, 0.01, 0.18}};
     const auto bent = [](Complex z) {
@@ -287,17 +295,20 @@ Figure sliding_01(Output& output) {
              turned.start_turns = {0.2, 0.3, -0.3, 0.2};
              return flow_start(source, circles, numbered(3), turned).map;
          }}};
-    Table table{"Sources are the paper's; it does not name its maps. Example 2's is the harmonic map with circles that are turned by .2, .3, −.3, .2",
-                {"map", "h", "triangles", "max abs(μ)", "distance of the start", "iterations to 1e-3", "to 1e-9", "all", "largest error of the map",
-                 "of μ", "flips"},
-                {}};
+    Table table{
+        "Sources are the paper's; it does not name its maps. Example 2's is the harmonic map with circles that are "
+        "turned by .2, .3, −.3, .2",
+        {"map", "h", "triangles", "max abs(μ)", "distance of the start", "iterations to 1e-3", "to 1e-9", "all",
+         "largest error of the map", "of μ", "flips"},
+        {}};
     for (const Given& example : examples) found_again(output, figure, table, example);
     figure.tables.push_back(std::move(table));
     swirled(output, figure);
     chosen_steps(figure, examples[0]);
     higher_powers(figure, examples[0]);
     figure.remarks.push_back(
-        "The paper offers to choose ε so that sup |μ − ν| becomes least and takes 1 throughout. So does the default here: with ε = 1 every step is "
+        "The paper offers to choose ε so that sup |μ − ν| becomes least and takes 1 throughout. So does the default "
+        "here: with ε = 1 every step is "
         "one of Newton's method.");
     return figure;
 }

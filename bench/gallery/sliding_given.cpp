@@ -26,14 +26,16 @@ BoundaryCondition uneven_boundary(const Surface& source, const std::vector<Hole>
         const Hole a = l ? from[l - 1] : Hole{0, 0, 1}, b = l ? to[l - 1] : Hole{0, 0, 1};
         for (const int v : source.topology.boundary_loops[l]) {
             const double t = std::arg(z[v] - Complex(a[0], a[1]));
-            boundary.pin(v, Complex(b[0], b[1]) + std::polar(b[2], t + speeds[l].a * std::sin(t + speeds[l].b) + speeds[l].c));
+            boundary.pin(
+                v, Complex(b[0], b[1]) + std::polar(b[2], t + speeds[l].a * std::sin(t + speeds[l].b) + speeds[l].c));
         }
     }
     return boundary;
 }
 
 /// Mean |μ| of the faces that the circle |z| = radius crosses, by sectors of their barycentres.
-Curve around_circle(const std::string& label, const Surface& source, const Eigen::VectorXd& face_abs_mu, double radius) {
+Curve around_circle(const std::string& label, const Surface& source, const Eigen::VectorXd& face_abs_mu,
+                    double radius) {
     constexpr int sectors = 60;
     const Eigen::VectorXcd z = planar_coordinates(source.mesh);
     std::vector<double> sums(sectors, 0), counts(sectors, 0);
@@ -75,7 +77,8 @@ nlohmann::json course_on_circle(Table& table, const std::string& title, const Su
         const SolvedOnto solved = solve_onto(source, onto, options);
         if (!solved) continue;
         if (n == 1) add("start", distortion(source.operators, solved.all->start).face_abs_mu);
-        add(n == 90 ? "all (" + std::to_string(solved.all->iterations) + ")" : std::to_string(n) + (n == 1 ? " iteration" : " iterations"),
+        add(n == 90 ? "all (" + std::to_string(solved.all->iterations) + ")"
+                    : std::to_string(n) + (n == 1 ? " iteration" : " iterations"),
             solved.all->distortion.face_abs_mu);
     }
     return curves_panel(curves, title, "angle", "|μ|", false);
@@ -85,16 +88,20 @@ nlohmann::json course_on_circle(Table& table, const std::string& title, const Su
 
 Figure sliding_given(Output& output) {
     Figure figure{"Figures 1 to 3: general, given and extremal maps",
-                  "*The paper:* The ellipses of a general quasiconformal map differ, those of a Teichmüller map are all of one shape (Fig. 1). For every "
-                  "boundary correspondence there is a Teichmüller map (.58 in Fig. 2); the extremal one is the least of them (.11). During the "
+                  "*The paper:* The ellipses of a general quasiconformal map differ, those of a Teichmüller map are "
+                  "all of one shape (Fig. 1). For every "
+                  "boundary correspondence there is a Teichmüller map (.58 in Fig. 2); the extremal one is the least "
+                  "of them (.11). During the "
                   "iteration |μ| on |z| = .65 becomes constant, at once from a good start (Fig. 3)."};
     const std::vector<Hole> from{{0, 0.45, 0.16}, {-0.4, -0.3, 0.16}, {0.4, -0.3, 0.16}},
         to{{0, 0.5, 0.2}, {-0.45, -0.25, 0.17}, {0.4, -0.35, 0.14}};
     const Surface source(disk_with_holes(from, 0.02));
     const BoundaryCondition given = uneven_boundary(source, from, to);
-    Table table{"The unit disk less holes of radius .16 to one with holes of radius .20, .17, .14; \"given\" boundary values run unevenly. h = .02",
-                usual_head("map"),
-                {}};
+    Table table{
+        "The unit disk less holes of radius .16 to one with holes of radius .20, .17, .14; \"given\" boundary values "
+        "run unevenly. h = .02",
+        usual_head("map"),
+        {}};
     const Solved harmonic = solve(source, given, "harmonic"), prescribed = solve(source, given, "extremal");
     table.rows.push_back(usual_row("harmonic, boundary given", harmonic));
     table.rows.push_back(usual_row("extremal, boundary given", prescribed));
@@ -113,13 +120,14 @@ Figure sliding_given(Output& output) {
     const std::string general = output.write("sliding_given_harmonic", source, harmonic),
                       even = output.write("sliding_given_extremal", source, prescribed),
                       best = write(output, "sliding_given_sliding", source, sliding);
-    figure.pictures.push_back({"sliding_given",
-                               "Small circles of the source, their images by the harmonic map of given boundary values, by the "
-                               "extremal map of the same values, and by the extremal map whose boundary slides; |μ| of the three.",
-                               {circles_panel(general, "source", "source", 24), circles_panel(general, "harmonic", "image", 24),
-                                circles_panel(even, "extremal, given", "image", 24),
-                                circles_panel(best, "extremal, sliding", "image", 24),
-                                histogram_panel({{"harmonic", general}, {"extremal, given", even}, {"extremal, sliding", best}}, "", {}, 0.8)}});
+    figure.pictures.push_back(
+        {"sliding_given",
+         "Small circles of the source, their images by the harmonic map of given boundary values, by the "
+         "extremal map of the same values, and by the extremal map whose boundary slides; |μ| of the three.",
+         {circles_panel(general, "source", "source", 24), circles_panel(general, "harmonic", "image", 24),
+          circles_panel(even, "extremal, given", "image", 24), circles_panel(best, "extremal, sliding", "image", 24),
+          histogram_panel({{"harmonic", general}, {"extremal, given", even}, {"extremal, sliding", best}}, "", {},
+                          0.8)}});
 
     // Their Fig. 3, on Example 4.
     const Surface example(disk_with_holes({{0, 0.33, 0.1}, {0.33, -0.33, 0.067}, {-0.33, -0.33, 0.133}}, 0.02));
@@ -129,7 +137,9 @@ Figure sliding_given(Output& output) {
     Table circle{"Example 4, |μ| on |z| = .65 (means of the faces there in 60 sectors)",
                  {"start", "after", "least", "largest"},
                  {}};
-    figure.pictures.push_back({"sliding_given_circle", "|μ| on |z| = .65 after some iterations, from circles that begin evenly and from holes turned by 2, −2 and 1.5 rad.",
+    figure.pictures.push_back({"sliding_given_circle",
+                               "|μ| on |z| = .65 after some iterations, from circles that begin evenly and from holes "
+                               "turned by 2, −2 and 1.5 rad.",
                                {course_on_circle(circle, "even start", example, onto, {}),
                                 course_on_circle(circle, "holes turned", example, onto, turned)}});
     figure.tables.push_back(std::move(circle));

@@ -234,14 +234,16 @@ Figure sliding_12(Output& output) {
                 Surface(read_mesh(*planar).mesh), numbered(3));
     if (const auto path_of_other = scan_path("human_face.obj")) {
         // Eyes and mouth, as alex_3 has them.
-        const Surface second(opened(read_mesh(*path_of_other).mesh, {{-0.031, 0.2735, 0.0145, 0.0065},
-                                                                     {0.031, 0.2735, 0.0145, 0.0065},
-                                                                     {0, 0.2115, 0.026, 0.008}}));
-        between(output, figure, table, "sliding_12_scans", "alex_3 onto human_face, cut open at eyes and mouth", face, second);
+        const Surface second(
+            opened(read_mesh(*path_of_other).mesh,
+                   {{-0.031, 0.2735, 0.0145, 0.0065}, {0.031, 0.2735, 0.0145, 0.0065}, {0, 0.2115, 0.026, 0.008}}));
+        between(output, figure, table, "sliding_12_scans", "alex_3 onto human_face, cut open at eyes and mouth", face,
+                second);
         between(output, figure, table, "sliding_12_scans_back", "human_face, cut open, onto alex_3", second, face);
-        figure.remarks.push_back("Two different scans: alex_3 and human_face, from which eyes and mouth are cut out by ellipses (" +
-                                 std::to_string(second.topology.boundary_loops.size()) + " loops, " +
-                                 std::to_string(second.mesh.face_count()) + " triangles); loops are matched by position.");
+        figure.remarks.push_back(
+            "Two different scans: alex_3 and human_face, from which eyes and mouth are cut out by ellipses (" +
+            std::to_string(second.topology.boundary_loops.size()) + " loops, " +
+            std::to_string(second.mesh.face_count()) + " triangles); loops are matched by position.");
     }
     figure.tables.push_back(std::move(table));
     figure.remarks.push_back(

@@ -132,10 +132,10 @@ Figure sliding_08(Output& output) {
     both({"sliding_10", "Example 10: very different sizes"},
          circles_target({{-0.3, 0.1, 0.4}, {0.5, 0.35, 0.08}, {0.45, -0.35, 0.03}}),
          circles_target({{-0.2, 0.2, 0.25}, {0.5, 0.35, 0.03}, {0.3, -0.45, 0.12}}), kEdge, 0.4 * kEdge);
-    const auto [faint, k] = both({"sliding_10_extreme", "Example 10, sizes exchanged"},
-                                 circles_target({{-0.4, 0.05, 0.4}, {0.35, 0.3, 0.1}, {0.4, -0.4, 0.025}}),
-                                 circles_target({{-0.45, 0, 0.3}, {0.45, 0.35, 0.025}, {0.35, -0.4, 0.25}}), kEdge,
-                                 0.2 * kEdge);
+    const auto [faint, k] =
+        both({"sliding_10_extreme", "Example 10, sizes exchanged"},
+             circles_target({{-0.4, 0.05, 0.4}, {0.35, 0.3, 0.1}, {0.4, -0.4, 0.025}}),
+             circles_target({{-0.45, 0, 0.3}, {0.45, 0.35, 0.025}, {0.35, -0.4, 0.25}}), kEdge, 0.2 * kEdge);
     both({"sliding_11", "Example 11: round holes to polygons and a star"},
          circles_target({{-0.45, 0.1, 0.2}, {0.4, 0.35, 0.15}, {0.25, -0.5, 0.2}}),
          target_domain(TargetCurve::circle(0, 1),
@@ -145,16 +145,21 @@ Figure sliding_08(Output& output) {
          0.015, 0.0015);
     figure.tables.push_back(std::move(table));
     figure.remarks.push_back(
-        "There and back agree in k within their brackets. In the second Example 10 a hole of radius .1 becomes .025 and "
-        "one of .025 becomes .25. φ grows like the inverse square of the distance from the small hole, and beside the large one hardly anything of it is "
+        "There and back agree in k within their brackets. In the second Example 10 a hole of radius .1 becomes .025 "
+        "and "
+        "one of .025 becomes .25. φ grows like the inverse square of the distance from the small hole, and beside the "
+        "large one hardly anything of it is "
         "left: the faces with abs(μ) < .93 k are " +
         number(100 * faint.area, 1) + " % of the area and hold " + number(100 * faint.phi, 2) +
         " % of ∫abs(φ). What the map does there does not enter k = " + number(k) +
-        ", the iteration leaves it alone, and the std by area says so; weighted by abs(φ), as the bracket sees it, it is a third of "
+        ", the iteration leaves it alone, and the std by area says so; weighted by abs(φ), as the bracket sees it, it "
+        "is a third of "
         "that. Finer edges at the small hole help k, not this.");
     figure.remarks.push_back(
-        "In the bays of the star a circle's edges are stretched most: with edges of .006 at the holes the images turned by more than a radian an edge "
-        "there and std was .0143; with .0015 it is that of the table. The largest abs(μ) is that of single faces at corners of "
+        "In the bays of the star a circle's edges are stretched most: with edges of .006 at the holes the images "
+        "turned by more than a radian an edge "
+        "there and std was .0143; with .0015 it is that of the table. The largest abs(μ) is that of single faces at "
+        "corners of "
         "the polygons, to which no corner of a circle corresponds.");
     return figure;
 }
@@ -165,26 +170,46 @@ namespace {
 struct TimedPair {
     std::string name;
     std::vector<Hole> from, to;
-    int vertices, faces;           ///< of the paper's mesh
-    double seconds, sup;           ///< as the paper has them
+    int vertices, faces;  ///< of the paper's mesh
+    double seconds, sup;  ///< as the paper has them
 };
 
 std::vector<TimedPair> timed_pairs() {
     const std::vector<Hole> five{{0, 0, 0.12}, {0.5, 0.1, 0.1}, {0, 0.5, 0.14}, {-0.5, -0.05, 0.1}, {0.05, -0.5, 0.12}},
         five_to{{0.1, 0.05, 0.1}, {0.55, 0.25, 0.15}, {-0.15, 0.55, 0.1}, {-0.55, -0.15, 0.17}, {0, -0.55, 0.1}};
     return {
-        {"Example 4, three holes", {{0, 0.33, 0.1}, {0.33, -0.33, 0.067}, {-0.33, -0.33, 0.133}},
-         {{0, 0.6, 0.1}, {0.7, -0.3, 0.1}, {-0.7, -0.3, 0.1}}, 22'160, 43'115, 87.7018, 0.330403},
-        {"nine holes", nine_holes(0.12, 0.6, 0, 0.1, 0.1), nine_holes(0.2, 0.65, 0.2, 0.06, 0.14), 17'746, 35'008, 73.0281,
-         0.446511},
-        {"two holes", {{-0.4, 0.1, 0.2}, {0.35, 0, 0.25}}, {{-0.5, -0.2, 0.15}, {0.3, 0.3, 0.3}}, 17'746, 35'008, 62.6791,
+        {"Example 4, three holes",
+         {{0, 0.33, 0.1}, {0.33, -0.33, 0.067}, {-0.33, -0.33, 0.133}},
+         {{0, 0.6, 0.1}, {0.7, -0.3, 0.1}, {-0.7, -0.3, 0.1}},
+         22'160,
+         43'115,
+         87.7018,
+         0.330403},
+        {"nine holes", nine_holes(0.12, 0.6, 0, 0.1, 0.1), nine_holes(0.2, 0.65, 0.2, 0.06, 0.14), 17'746, 35'008,
+         73.0281, 0.446511},
+        {"two holes",
+         {{-0.4, 0.1, 0.2}, {0.35, 0, 0.25}},
+         {{-0.5, -0.2, 0.15}, {0.3, 0.3, 0.3}},
+         17'746,
+         35'008,
+         62.6791,
          0.091014},
-        {"Example 5, three holes", {{0, 0.5, 0.1}, {-0.4, -0.3, 0.1}, {0.4, -0.3, 0.1}},
-         {{0, 0.5, 0.2}, {-0.4, -0.3, 0.2}, {0.4, -0.3, 0.2}}, 6'282, 12'141, 19.9097, 0.343128},
+        {"Example 5, three holes",
+         {{0, 0.5, 0.1}, {-0.4, -0.3, 0.1}, {0.4, -0.3, 0.1}},
+         {{0, 0.5, 0.2}, {-0.4, -0.3, 0.2}, {0.4, -0.3, 0.2}},
+         6'282,
+         12'141,
+         19.9097,
+         0.343128},
         {"five holes", five, five_to, 4'832, 9'376, 7.6386, 0.378116},
         {"ring", {{0, 0, 0.5}}, {{0, 0, 0.3}}, 671, 1'240, 0.9367, 0.039436},
-        {"two holes, hardly moved", {{-0.4, 0.1, 0.2}, {0.35, 0, 0.25}}, {{-0.42, 0.08, 0.19}, {0.36, 0.03, 0.26}}, 588, 1'056,
-         1.3129, 0.073473},
+        {"two holes, hardly moved",
+         {{-0.4, 0.1, 0.2}, {0.35, 0, 0.25}},
+         {{-0.42, 0.08, 0.19}, {0.36, 0.03, 0.26}},
+         588,
+         1'056,
+         1.3129,
+         0.073473},
     };
 }
 
@@ -207,12 +232,15 @@ Figure sliding_09(Output&) {
                   "when μ changes by less than 1e-3."};
     Table table{
         "Pairs of circle domains with meshes of the sizes of Table 1. A harmonic map and the extremal map of the same "
-        "mesh are measured in one run, each from the loaded mesh to the result: its examination and topology, operators, "
+        "mesh are measured in one run, each from the loaded mesh to the result: its examination and topology, "
+        "operators, "
         "ordering, analysis, factorisations and solutions. Without the first two a harmonic map is shorter: the ratio "
-        "to that is in brackets. Seconds are processor seconds, those of all threads together, the least of three: they hardly depend on "
+        "to that is in brackets. Seconds are processor seconds, those of all threads together, the least of three: "
+        "they hardly depend on "
         "what else the machine does, and the clock shows less",
-        {"vertices (paper)", "triangles (paper)", "seconds (paper)", "sup abs(μ) (paper)", "our pair", "vertices", "triangles", "harmonic s", "extremal s", "ratio",
-         "paper's s over ours", "k", "std", "sup abs(μ)", "flips", "iterations"},
+        {"vertices (paper)", "triangles (paper)", "seconds (paper)", "sup abs(μ) (paper)", "our pair", "vertices",
+         "triangles", "harmonic s", "extremal s", "ratio", "paper's s over ours", "k", "std", "sup abs(μ)", "flips",
+         "iterations"},
         {}};
     for (const TimedPair& pair : timed_pairs()) {
         const TargetDomain target = circles_target(pair.to);
@@ -238,8 +266,14 @@ Figure sliding_09(Output&) {
             if (!solved) break;
             extremal = std::min(extremal, processor_seconds(start));
         }
-        std::vector<std::string> cells{std::to_string(pair.vertices), std::to_string(pair.faces), number(pair.seconds, 1), number(pair.sup, 3),
-                                       pair.name, std::to_string(mesh.vertex_count()), std::to_string(mesh.face_count()), number(whole, 4)};
+        std::vector<std::string> cells{std::to_string(pair.vertices),
+                                       std::to_string(pair.faces),
+                                       number(pair.seconds, 1),
+                                       number(pair.sup, 3),
+                                       pair.name,
+                                       std::to_string(mesh.vertex_count()),
+                                       std::to_string(mesh.face_count()),
+                                       number(whole, 4)};
         if (!solved) {
             cells.push_back("refused: " + solved.refusal);
             table.rows.push_back(std::move(cells));
@@ -249,7 +283,8 @@ Figure sliding_09(Output&) {
         for (const std::string& cell :
              {number(extremal, 3), number(extremal / whole, 1) + " (" + number(extremal / harmonic, 1) + ")",
               number(pair.seconds / extremal, 0), number(found.k, 5), number(found.distortion.standard_deviation),
-              number(found.distortion.max, 3), std::to_string(found.distortion.flipped.size()), std::to_string(found.iterations)})
+              number(found.distortion.max, 3), std::to_string(found.distortion.flipped.size()),
+              std::to_string(found.iterations)})
             cells.push_back(cell);
         table.rows.push_back(std::move(cells));
     }

@@ -200,7 +200,8 @@ std::string render_page(const PageContent& content) {
     Json data;
     data["record"] = require_record(content);
     data["title"] = content.title;
-    data["history"] = {{"k", content.history_k}, {"change", content.history_change}, {"largest", content.history_largest}};
+    data["history"] = {
+        {"k", content.history_k}, {"change", content.history_change}, {"largest", content.history_largest}};
 
     const Mesh& mesh = content.source;
     const Drawing drawing = make_drawing(mesh, content.drawn_faces);

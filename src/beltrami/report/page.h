@@ -19,11 +19,11 @@ struct PageMap {
 /// Everything a page shows.
 struct PageContent {
     const Mesh& source;
-    std::vector<PageMap> maps;           ///< at least one; the first is the main one
-    std::vector<double> history_k;       ///< k after each iteration; may be empty
-    std::vector<double> history_change;  ///< change of each iteration; may be empty
+    std::vector<PageMap> maps;            ///< at least one; the first is the main one
+    std::vector<double> history_k;        ///< k after each iteration; may be empty
+    std::vector<double> history_change;   ///< change of each iteration; may be empty
     std::vector<double> history_largest;  ///< largest |μ| after each iteration; may be empty
-    std::string record_json;             ///< the command's record, a JSON object ("{}" if there is none)
+    std::string record_json;              ///< the command's record, a JSON object ("{}" if there is none)
     std::string title;
     int drawn_faces = 400'000;  ///< a mesh of more triangles is coarsened, for drawing only; the page says so
 };

@@ -382,8 +382,13 @@ MapRecord map_record(const LeastMaximumMap& result) {
 }
 
 SolveRecord solve_record(const ExtremalMap& result, double seconds_total) {
-    return {result.iterations, to_string(result.termination), result.factorizations, seconds_total, {},
-            result.folds_removed, result.history};
+    return {result.iterations,
+            to_string(result.termination),
+            result.factorizations,
+            seconds_total,
+            {},
+            result.folds_removed,
+            result.history};
 }
 
 OntoRecord onto_record(const ExtremalMap& result, const std::string& target) {

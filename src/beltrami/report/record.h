@@ -48,7 +48,7 @@ struct SolveRecord {
     int factorizations = 0;
     double seconds_total = 0;
     std::optional<double> seconds_harmonic;
-    bool folds_removed = false;  ///< of the extremal map
+    bool folds_removed = false;           ///< of the extremal map
     std::vector<Iteration> history = {};  ///< of the extremal map; empty: none
 };
 
