@@ -5,7 +5,9 @@ import pathlib
 import re
 import unittest
 
-from support import Command, bump, write_obj
+import jsonschema
+
+from support import SCHEMA, Command, disk, write_obj
 
 SOURCES = pathlib.Path(__file__).parents[2] / "src" / "beltrami"
 STRING = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
@@ -42,13 +44,20 @@ class Hints(Command):
         self.assertIn("--minimize max", said.split("hint: ")[1])
 
     def test_corner(self):
-        points, faces = bump(12)
-        write_obj(self.path("bump.obj"), points, faces)
-        done = self.run_command("map", self.path("bump.obj"), "-o", self.path("out.obj"), "--boundary", "rectangle:3,1",
+        # A circle to a square by arc length: the corners alone force K = 2.
+        points, faces = disk(16)
+        write_obj(self.path("disk.obj"), points, faces)
+        done = self.run_command("map", self.path("disk.obj"), "-o", self.path("out.obj"), "--boundary", "rectangle:1,1",
                                 "--json", self.path("out.json"))
-        details = json.loads((self.folder / "out.json").read_text())["warning_details"]
-        self.assertIn("corner", [row["kind"] for row in details])
+        record = json.loads((self.folder / "out.json").read_text())
+        jsonschema.validate(record, SCHEMA)
+        self.assertEqual(len(record["warning_details"]), len(record["warnings"]))
+        corner = [row for row in record["warning_details"] if row["kind"] == "corner"]
+        self.assertEqual(len(corner), 1)
+        self.assertEqual((corner[0]["of"], corner[0]["count"]), ("vertices", 1))
+        self.assertEqual(corner[0]["indices"], [record["corners"]["sharpest"]["vertex"]])
         self.assertIn("hint: --speed conformal", done.stderr)
+        self.assertNotIn("--", done.stderr.split("hint: ")[0])
 
 
 if __name__ == "__main__":
