@@ -41,14 +41,15 @@ void pin_sides(BoundaryCondition& boundary, const Mesh& mesh, const std::vector<
     for (std::size_t side = 0; side < vertices.size(); ++side) {
         const int first = vertices[side], last = vertices[(side + 1) % vertices.size()];
         std::size_t i = std::find(loop.begin(), loop.end(), first) - loop.begin();
-        if (i == n) throw Error(Cause::bad_option, "a corner is not on the loop", "", {first});
+        if (i == n) throw Error(Cause::bad_option, "a corner is not on the loop", "", {Things::vertices, {first}});
         std::vector<int> chain{first};
         std::vector<double> lengths{0};
         do {
             const int v = loop[++i % n];
             lengths.push_back(lengths.back() + (mesh.point(v) - mesh.point(chain.back())).norm());
             chain.push_back(v);
-            if (chain.size() > n + 1) throw Error(Cause::bad_option, "a corner is not on the loop", "", {last});
+            if (chain.size() > n + 1)
+                throw Error(Cause::bad_option, "a corner is not on the loop", "", {Things::vertices, {last}});
         } while (chain.back() != last);
         const Complex from = corners[side], to = corners[(side + 1) % corners.size()];
         for (std::size_t j = 0; j + 1 < chain.size(); ++j)

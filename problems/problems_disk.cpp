@@ -5,6 +5,7 @@
 #include <beltrami/charts/boundary_values.h>
 #include <beltrami/generate/grids.h>
 #include <beltrami/generate/round_domains.h>
+#include <beltrami/operators/distortion.h>
 
 #include "problems/construct.h"
 #include "problems/elliptic.h"

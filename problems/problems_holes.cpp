@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include <beltrami/generate/round_domains.h>
+#include <beltrami/operators/distortion.h>
 
 #include "problems/construct.h"
 

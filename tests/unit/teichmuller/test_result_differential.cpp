@@ -1,4 +1,6 @@
 // Every extremal map carries its φ.
+#include <string>
+
 #include <gtest/gtest.h>
 
 #include <beltrami/generate/grids.h>
@@ -18,7 +20,7 @@ Surface mapped(const Mesh& source, const ExtremalMap& result) {
 
 double bound(const ExtremalMap& result, const char* kind) {
     for (const Bound& of : result.bounds)
-        if (of.kind == kind) return of.K;
+        if (std::string(to_string(of.kind)) == kind) return of.K;
     return 0;
 }
 
