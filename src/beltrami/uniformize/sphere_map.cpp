@@ -266,7 +266,8 @@ class Mapping {
         result_.factorizations += barrier.factorization_count();
         CentredSphere sphere = centred(points, areas_);
         if (faces_.flipped(sphere.points).empty()) return settle(std::move(sphere));
-        return settle({std::move(points), (areas_.transpose() * points).norm() / areas_.sum(), 0});
+        const double off_centre = (areas_.transpose() * points).norm() / areas_.sum();
+        return settle({std::move(points), off_centre, 0});
     }
 
     /// Faces with an edge that is too short in the map, and their share of the area.
