@@ -180,7 +180,7 @@ class Mapping {
     }
 
     /// Turns flipped faces up. @return whether none is left
-    bool settle(CentredSphere sphere) {
+    bool settle(const CentredSphere& sphere) {
         result_.positions = sphere.points;
         result_.centre_distance = sphere.centre_distance;
         const SphereRepair repair = repair_sphere_map(source_, faces_, result_.positions);
@@ -265,7 +265,7 @@ class Mapping {
         }
         result_.factorizations += barrier.factorization_count();
         CentredSphere sphere = centred(points, areas_);
-        if (faces_.flipped(sphere.points).empty()) return settle(std::move(sphere));
+        if (faces_.flipped(sphere.points).empty()) return settle(sphere);
         const double off_centre = (areas_.transpose() * points).norm() / areas_.sum();
         return settle({std::move(points), off_centre, 0});
     }
