@@ -13,7 +13,7 @@ namespace beltrami BELTRAMI_PUBLIC {
 /// Which of the bounds below to work out.
 struct ProvedBoundsOptions {
     /// Faces up to which the pair bound and, on disks, the quadrilateral one are taken.
-    int most_faces_for_pairs = 20000;
+    int most_faces_for_pairs = 5000;
     PairBoundOptions pair;
     /// Whether the polygons themselves are the problem, however many vertices they have. Else what a single vertex of
     /// a loop of 24 or more proves is a bound of the polygons only: such a loop may be sampled from a smooth one.

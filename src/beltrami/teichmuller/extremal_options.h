@@ -49,7 +49,7 @@ struct ExtremalOptions : IterationOptions {
     /// samples where the bracket is wider than 1 %, else none; negative: never.
     std::optional<int> sharpen;
     /// The bounds by moduli and by pairs of piecewise linear functions (proved_bounds.h), which cost about four
-    /// factorisations and a hundred solves: always, never, or, if empty, on meshes of up to 20 000 faces unless sharpen
+    /// factorisations and a hundred solves: always, never, or, if empty, on meshes of up to 5000 faces unless sharpen
     /// is negative.
     std::optional<bool> prove;
 
