@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
     const std::vector<int> given = bench::numbers_of(argc, argv, 0, {0}, "bench_sweep [FIRST_SEED [COUNT]]");
     const int first = given[0], count = given.size() > 1 ? given[1] : 200;
     std::map<std::string, int> refused;
-    int solved = 0, broken = 0, flipped = 0, unfinished = 0, other_class = 0;
+    int solved = 0, broken = 0, flipped = 0, unfinished = 0, below_bound = 0, other_class = 0;
     double seconds = 0;
     for (int seed = first; seed < first + count; ++seed) {
         const bench::Problem problem = bench::random_problem(seed);
@@ -40,7 +40,8 @@ int main(int argc, char** argv) {
             // Of the mesh that was mapped, on which no edge between prescribed vertices is left.
             const std::size_t flips = found.distortion.flipped.size() + found.distortion.degenerate.size();
             flipped += flips > 0;
-            unfinished += found.termination != Termination::converged;
+            unfinished += found.termination == Termination::iteration_limit;
+            below_bound += found.termination == Termination::below_bound;
             const auto turns = flips > 0 ? std::vector<int>{}
                                          : bench::relative_turns(problem, found.map.head(problem.mesh.vertex_count()),
                                                                  *problem.witness);
@@ -63,9 +64,10 @@ int main(int argc, char** argv) {
         std::fflush(stdout);
     }
     fmt::print(
-        "{} problems: {} solved in {:.1f} s, {} broken, {} with flips, {} at the iteration limit, {} with other "
+        "{} problems: {} solved in {:.1f} s, {} broken, {} with flips, {} at the iteration limit, {} below a proved "
+        "bound, {} with other "
         "turns than the witness\n",
-        count, solved, seconds, broken, flipped, unfinished, other_class);
+        count, solved, seconds, broken, flipped, unfinished, below_bound, other_class);
     for (const auto& [reason, times] : refused) fmt::print("refused {} times: {}\n", times, reason);
     return broken > 0 ? 1 : 0;
 }
