@@ -34,8 +34,6 @@ SolvedOnto solve_onto(const Surface& source, const Constraints& onto, const Extr
 /// Any other way to such a map.
 SolvedOnto solve_onto(const std::function<ExtremalMap()>& solver);
 
-/// k of a dilatation.
-double k_of(double K);
 /// Writes mesh, map and |μ|; returns the file's name.
 std::string write(Output& output, const std::string& name, const Surface& source, const SolvedOnto& solved);
 
