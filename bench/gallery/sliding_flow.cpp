@@ -1,45 +1,24 @@
 // The Beltrami holomorphic flow: Examples 1 to 3.
 #include "gallery/power_descent.h"
 #include "gallery/sliding.h"
+#include "problems/swirl.h"
 
 #include <beltrami/flow/beltrami_flow.h>
 #include <beltrami/mesh/planar.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace beltrami::gallery {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
-/// The domain between the images of the unit circle and of round holes: splines through exact points.
-template <class Map>
-TargetDomain image_domain(const std::vector<Hole>& holes, const Map& f) {
-    const auto image = [&](Complex centre, double radius) {
-        std::vector<Complex> points;
-        for (int i = 0; i < 500; ++i) points.push_back(f(centre + std::polar(radius, 2 * kPi * i / 500)));
-        return TargetCurve::spline(points);
-    };
-    std::vector<TargetCurve> curves;
-    for (const auto& [x, y, r] : holes) curves.push_back(image({x, y}, r));
-    return target_domain(image(0, 1), std::move(curves));
-}
+using bench::image_domain;
+using bench::swirl;
+using bench::swirl_coefficient;
 
 double distance(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b) {
     return (a - b).cwiseAbs().maxCoeff();
-}
-
-/// Their map, eq. (37), and its coefficient: eq. (38) with its sign corrected.
-Complex swirl(Complex z) {
-    return std::polar(1.0, 1.5) * z * std::polar(1.0, 1.5 * std::abs(z));
-}
-Complex swirl_coefficient(Complex z) {
-    const Complex c(0, 0.75);
-    const double r = std::abs(z);
-    return c * z * z / (r + c * r * r);
 }
 
 /// A piecewise linear map onto a domain, to be found again from its coefficient.

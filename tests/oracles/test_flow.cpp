@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "problems/swirl.h"
 #include "support/onto.h"
 
 #include <beltrami/flow/beltrami_flow.h>
@@ -13,11 +13,12 @@
 namespace beltrami {
 namespace {
 
+using bench::image_domain;
+using bench::swirl;
+using bench::swirl_coefficient;
 using test::circles_target;
 using test::disk_with_holes;
 using test::Hole;
-
-constexpr double kPi = std::numbers::pi;
 
 Correspondence loops_in_order(std::size_t holes) {
     Correspondence wanted;
@@ -25,37 +26,11 @@ Correspondence loops_in_order(std::size_t holes) {
     return wanted;
 }
 
-/// The domain between the images of the unit circle and of round holes: splines through many exact points.
-template <class Map>
-TargetDomain image_domain(const std::vector<Hole>& holes, const Map& f) {
-    const auto image = [&](Complex centre, double radius) {
-        std::vector<Complex> points;
-        for (int i = 0; i < 500; ++i) points.push_back(f(centre + std::polar(radius, 2 * kPi * i / 500)));
-        return TargetCurve::spline(points);
-    };
-    std::vector<TargetCurve> curves;
-    for (const auto& [x, y, r] : holes) curves.push_back(image({x, y}, r));
-    return target_domain(image(0, 1), std::move(curves));
-}
-
 double distance(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b) {
     return (a - b).cwiseAbs().maxCoeff();
 }
 
 // ---- Example 3: against the map of the smooth domain ---------------------------------------------------------------
-
-/// The paper's map, eq. (37): f = e^{1.5i} z e^{1.5i|z|}.
-Complex swirl(Complex z) {
-    return std::polar(1.0, 1.5) * z * std::polar(1.0, 1.5 * std::abs(z));
-}
-
-/// Its coefficient: ∂̄|z| = z/2|z| and ∂|z| = z̄/2|z| give μ = ¾i z²/(|z| + ¾i |z|²). Eq. (38) has −¾i in both places,
-/// which is that of z e^{−1.5i|z|}.
-Complex swirl_coefficient(Complex z) {
-    const Complex c(0, 0.75);
-    const double r = std::abs(z);
-    return c * z * z / (r + c * r * r);
-}
 
 TEST(FlowExample3, HasTheOrdersOfThePaper) {
     // The coefficient is that of the map: central differences.

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <beltrami/base/error.h>
 #include <beltrami/base/parallel.h>
+#include <beltrami/differentials/orthonormal_columns.h>
 #include <beltrami/linear/decomposition.h>
 #include <beltrami/linear/dense.h>
 
@@ -167,15 +169,7 @@ void MixedSpace::orthonormalise(const std::vector<Function>& more) {
         lengths_[old_functions + j] = length;
         Eigen::VectorXcd v = given.col(j) / length, in_functions = Eigen::VectorXcd::Zero(T.rows());
         in_functions[old_functions + j] = 1 / length;
-        for (int pass = 0; pass < 2; ++pass) {
-            const Eigen::VectorXcd along = Q.leftCols(size).adjoint() * v;
-            v -= Q.leftCols(size) * along;
-            in_functions -= T.leftCols(size) * along;
-        }
-        const double left = v.norm();
-        if (!(left > kDependent)) continue;
-        Q.col(size) = v / left;
-        T.col(size++) = in_functions / left;
+        detail::append_orthonormal(std::move(v), std::move(in_functions), kDependent, Q, T, size);
     }
     orthonormal_ = Q.leftCols(size);
     triangle_ = T.leftCols(size);

@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <beltrami/base/parallel.h>
+#include <beltrami/differentials/orthonormal_columns.h>
 #include <beltrami/plane/circle_fit.h>
 
 namespace beltrami {
@@ -221,15 +223,7 @@ void SlitSpace::raise(int degree) {
         const double length = v.norm();
         v /= length;
         in_functions /= length;
-        for (int pass = 0; pass < 2; ++pass) {
-            const Eigen::VectorXd along = Q.leftCols(size).transpose() * v;
-            v -= Q.leftCols(size) * along;
-            in_functions -= T.leftCols(size) * along;
-        }
-        const double left = v.norm();
-        if (!(left > kDependent)) continue;
-        Q.col(size) = v / left;
-        T.col(size++) = in_functions / left;
+        detail::append_orthonormal(std::move(v), std::move(in_functions), kDependent, Q, T, size);
     }
     orthonormal_ = Q.leftCols(size);
     coefficients_ = T.leftCols(size).cast<Complex>();

@@ -8,33 +8,24 @@
 #include <beltrami/linear/decomposition.h>
 #include <beltrami/mesh/planar.h>
 
+#include "support/mixed_domains.h"
+
 namespace beltrami {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
 constexpr Complex kI(0, 1);
 
-MixedDomain::Loop whole(Complex centre, double radius, bool slides) {
-    return {centre, radius, {{centre, radius, 0, kTurn, 0, 0, slides, false, false}}, {}};
-}
-
 MixedDomain ring_with_sliding_inner_circle(double r) {
-    return {{whole(0, 1, false), whole(0, r, true)}, {}, {}, {}};
+    return {{test::whole_circle(0, 1, false), test::whole_circle(0, r, true)}, {}, {}, {}};
 }
 
 MixedDomain two_sliding_holes(std::vector<Complex> pins = {}) {
-    return {{whole(0, 1, false), whole({-0.4, 0.1}, 0.2, true), whole(0.35, 0.25, true)}, {}, std::move(pins), {}};
-}
-
-/// The unit disk, sliding on arcs [ends[0], ends[1]], [ends[2], ends[3]] …
-MixedDomain disk_with_sliding_arcs(const std::vector<double>& ends) {
-    MixedDomain domain{{{0, 1, {}, {}}}, {}, {}, {}};
-    for (std::size_t i = 0; i < ends.size(); ++i) {
-        const double to = i + 1 < ends.size() ? ends[i + 1] : ends[0] + kTurn;
-        domain.loops[0].parts.push_back({0, 1, ends[i], to, 0, 0, i % 2 == 0, true, true});
-        domain.loops[0].transitions.push_back(std::polar(1.0, ends[i]));
-    }
-    return domain;
+    return {{test::whole_circle(0, 1, false), test::whole_circle({-0.4, 0.1}, 0.2, true),
+             test::whole_circle(0.35, 0.25, true)},
+            {},
+            std::move(pins),
+            {}};
 }
 
 ChartPoints in_domain(const std::vector<Complex>& points) {
@@ -89,9 +80,11 @@ TEST(MixedSpace, HasTheDimensionOfTheTheoryWhereLoopsHaveOneConditionEach) {
     // A disk that slides, with 2, 3 and 5 pins: 2q − 3.
     const std::vector<Complex> pins{0.6, {0.1, 0.5}, {-0.5, 0.3}, {-0.4, -0.4}, {0.2, -0.5}};
     for (const int q : {2, 3, 5})
-        EXPECT_EQ(dimension({{whole(0, 1, true)}, {}, {pins.begin(), pins.begin() + q}, {}}, 8, {}), 2 * q - 3);
+        EXPECT_EQ(dimension({{test::whole_circle(0, 1, true)}, {}, {pins.begin(), pins.begin() + q}, {}}, 8, {}),
+                  2 * q - 3);
     // A hole is prescribed, the outer circle slides: powers up to 4 (degree 8 begins with them), less 3.
-    EXPECT_EQ(dimension({{whole(0, 1, true), whole(0, 0.5, false)}, {}, {}, {}}, 8, {4}), 2 * 4 - 3);
+    EXPECT_EQ(dimension({{test::whole_circle(0, 1, true), test::whole_circle(0, 0.5, false)}, {}, {}, {}}, 8, {4}),
+              2 * 4 - 3);
 }
 
 TEST(MixedSpace, HoldsTheLaurentSeriesOfARing) {
@@ -133,7 +126,7 @@ TEST(MixedSpace, GrowsByWhatIsPrescribedAndKeepsItsFunctions) {
 }
 
 TEST(MixedSpace, IsRealAlongArcsThatSlideUpToTheirEnds) {
-    const MixedSpace space(disk_with_sliding_arcs({1.5, 2.5, 4.4, 0.3 + kTurn}), 14, 14, {});
+    const MixedSpace space(test::disk_with_sliding_arcs({1.5, 2.5, 4.4, 0.3 + kTurn}), 14, 14, {});
     EXPECT_GT(space.size(), 12);
     EXPECT_LT(space.fit().last, 0.03);
     EXPECT_GT(space.fit().next, 0.03);
@@ -150,7 +143,7 @@ TEST(MixedSpace, IsRealAlongArcsThatSlideUpToTheirEnds) {
 
 /// t takes the disk to a half disk, its upper half circle to the diameter: φ dz² = P(t) dt² with real P.
 TEST(MixedSpace, HoldsTheDifferentialsOfTheDoubleOverAHalfCircle) {
-    const MixedDomain domain = disk_with_sliding_arcs({0, std::numbers::pi});
+    const MixedDomain domain = test::disk_with_sliding_arcs({0, std::numbers::pi});
     const MixedSpace space(domain, 12, 12, {});
     const std::vector<Complex> points = inside(domain);
     const Eigen::MatrixXcd values = space.evaluate(in_domain(points));
@@ -171,8 +164,8 @@ TEST(MixedSpace, HoldsTheDifferentialsOfTheDoubleOverAHalfCircle) {
 TEST(MixedSpace, TurnsWithItsDomain) {
     const double angle = 0.7;
     const Complex turn = std::polar(1.0, angle);
-    const MixedDomain domain = disk_with_sliding_arcs({0.3, 1.5, 2.5, 4.4}),
-                      turned = disk_with_sliding_arcs({0.3 + angle, 1.5 + angle, 2.5 + angle, 4.4 + angle});
+    const MixedDomain domain = test::disk_with_sliding_arcs({0.3, 1.5, 2.5, 4.4}),
+                      turned = test::disk_with_sliding_arcs({0.3 + angle, 1.5 + angle, 2.5 + angle, 4.4 + angle});
     const MixedSpace one(domain, 10, 10, {}), other(turned, 10, 10, {});
     ASSERT_EQ(one.size(), other.size());
     const std::vector<Complex> points = inside(domain);
@@ -184,7 +177,7 @@ TEST(MixedSpace, TurnsWithItsDomain) {
 }
 
 TEST(MixedSpace, PolesAtPointsOfLinesHaveTheirResidue) {
-    MixedDomain domain{{whole(0, 1, false)}, {}, {}, {{Complex(0.2, 0.1), std::polar(1.0, 0.4)}}};
+    MixedDomain domain{{test::whole_circle(0, 1, false)}, {}, {}, {{Complex(0.2, 0.1), std::polar(1.0, 0.4)}}};
     const MixedSpace space(domain, 6, 6, {});
     EXPECT_EQ(space.size(), 2 * 7 + 1);
     const std::vector<Complex> points = inside(domain);

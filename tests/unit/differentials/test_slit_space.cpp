@@ -6,28 +6,15 @@
 #include <beltrami/differentials/slit_space.h>
 #include <beltrami/linear/decomposition.h>
 
+#include "support/mixed_domains.h"
+
 namespace beltrami {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
 constexpr Complex kI(0, 1);
 
-/// The unit disk, sliding on arcs [ends[0], ends[1]], [ends[2], ends[3]] …, prescribed between them.
-MixedDomain disk_with_sliding_arcs(const std::vector<double>& ends) {
-    MixedDomain domain{{{0, 1, {}, {}}}, {}, {}, {}};
-    for (std::size_t i = 0; i < ends.size(); ++i) {
-        const double to = i + 1 < ends.size() ? ends[i + 1] : ends[0] + kTurn;
-        domain.loops[0].parts.push_back({0, 1, ends[i], to, 0, 0, i % 2 == 0, true, true});
-        domain.loops[0].transitions.push_back(std::polar(1.0, ends[i]));
-    }
-    return domain;
-}
-
 const std::vector<double> kTwoArcs{1.5, 2.5, 4.4, 0.3 + kTurn};
-
-MixedDomain::Loop hole(Complex centre, double radius, bool slides) {
-    return {centre, radius, {{centre, radius, 0, kTurn, 0, 0, slides, false, false}}, {}};
-}
 
 Eigen::MatrixXcd values(const DifferentialSpace& space, const std::vector<Complex>& points) {
     ChartPoints at;
@@ -45,33 +32,33 @@ std::vector<Complex> inside() {
 }
 
 TEST(SlitSpace, DescribesDisksThatSlideInPartWithPrescribedHoles) {
-    MixedDomain domain = disk_with_sliding_arcs(kTwoArcs);
+    MixedDomain domain = test::disk_with_sliding_arcs(kTwoArcs);
     EXPECT_TRUE(SlitSpace::describes(domain));
-    domain.loops.push_back(hole(0.3, 0.1, false));
+    domain.loops.push_back(test::whole_circle(0.3, 0.1, false));
     EXPECT_TRUE(SlitSpace::describes(domain));
-    domain.loops.push_back(hole(-0.3, 0.1, true));
+    domain.loops.push_back(test::whole_circle(-0.3, 0.1, true));
     EXPECT_FALSE(SlitSpace::describes(domain));
-    EXPECT_FALSE(SlitSpace::describes({{hole(0, 1, false)}, {}, {}, {}}));
-    EXPECT_FALSE(SlitSpace::describes({{hole(0, 1, true)}, {}, {}, {}}));
+    EXPECT_FALSE(SlitSpace::describes({{test::whole_circle(0, 1, false)}, {}, {}, {}}));
+    EXPECT_FALSE(SlitSpace::describes({{test::whole_circle(0, 1, true)}, {}, {}, {}}));
 }
 
 TEST(SlitSpace, HasTheDimensionOfItsPowers) {
     // N + 2 for each slit, 2 for each pin and each power of a hole, 1 for each mark and each held point, less 3.
-    MixedDomain domain = disk_with_sliding_arcs({0, kTurn / 2});
+    MixedDomain domain = test::disk_with_sliding_arcs({0, kTurn / 2});
     EXPECT_EQ(SlitSpace(domain, 12, 12, {}).size(), 12 + 2 - 3);
     domain.pins = {0.2, {-0.1, 0.4}};
     domain.held = {{{-0.4, -0.2}, {1, 2}}};
     EXPECT_EQ(SlitSpace(domain, 12, 12, {}).size(), 12 + 2 - 3 + 2 * 2 + 1);
-    MixedDomain two = disk_with_sliding_arcs(kTwoArcs);
-    two.loops.push_back(hole({0.3, -0.1}, 0.1, false));
+    MixedDomain two = test::disk_with_sliding_arcs(kTwoArcs);
+    two.loops.push_back(test::whole_circle({0.3, -0.1}, 0.1, false));
     two.marks = {{std::polar(1.0, 2.0), 0}};
     EXPECT_EQ(SlitSpace(two, 12, 12, {4}).size(), 2 * (12 + 2) - 3 + 2 * 4 + 1);
 }
 
 TEST(SlitSpace, IsRealAlongArcsThatSlideUpToTheirEnds) {
-    MixedDomain domain = disk_with_sliding_arcs(kTwoArcs);
+    MixedDomain domain = test::disk_with_sliding_arcs(kTwoArcs);
     domain.pins = {{0.2, 0.3}};
-    domain.loops.push_back(hole({-0.3, -0.2}, 0.15, false));
+    domain.loops.push_back(test::whole_circle({-0.3, -0.2}, 0.15, false));
     const SlitSpace space(domain, 18, 18, {5});
     std::vector<Complex> points;
     for (const auto& [from, to] : {std::pair(1.5, 2.5), std::pair(4.4, 0.3 + kTurn)})
@@ -86,7 +73,7 @@ TEST(SlitSpace, IsRealAlongArcsThatSlideUpToTheirEnds) {
 }
 
 TEST(SlitSpace, IsHolomorphicInsideWithSimplePolesAtPins) {
-    MixedDomain domain = disk_with_sliding_arcs(kTwoArcs);
+    MixedDomain domain = test::disk_with_sliding_arcs(kTwoArcs);
     domain.pins = {{0.2, 0.3}};
     const SlitSpace space(domain, 18, 18, {});
     constexpr double kStep = 1e-5;
@@ -102,7 +89,7 @@ TEST(SlitSpace, IsHolomorphicInsideWithSimplePolesAtPins) {
 /// With one arc prescribed, t that takes it to a half circle and the arc that slides to its diameter: φ = p(t) dt² with
 /// real polynomials p, which a lower degree of J holds wholly.
 TEST(SlitSpace, IsThePolynomialsOfAHalfDisk) {
-    const SlitSpace space(disk_with_sliding_arcs({0, kTurn / 2}), 16, 16, {});
+    const SlitSpace space(test::disk_with_sliding_arcs({0, kTurn / 2}), 16, 16, {});
     const std::vector<Complex> points = inside();
     const Eigen::MatrixXcd phi = values(space, points);
     Eigen::MatrixXd columns(2 * phi.rows(), phi.cols());
@@ -126,8 +113,8 @@ TEST(SlitSpace, IsThePolynomialsOfAHalfDisk) {
 }
 
 TEST(SlitSpace, GrowsAndKeepsItsFunctions) {
-    MixedDomain domain = disk_with_sliding_arcs(kTwoArcs);
-    domain.loops.push_back(hole({-0.3, -0.2}, 0.15, false));
+    MixedDomain domain = test::disk_with_sliding_arcs(kTwoArcs);
+    domain.loops.push_back(test::whole_circle({-0.3, -0.2}, 0.15, false));
     const SlitSpace space(domain, 8, 20, {16});
     EXPECT_EQ(space.size(), 2 * (8 + 2) - 3 + 2 * 4);
     const auto larger = space.refined();

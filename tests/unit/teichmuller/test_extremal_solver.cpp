@@ -3,6 +3,7 @@
 #include <beltrami/base/error.h>
 #include <beltrami/teichmuller/extremal_solver.h>
 
+#include "support/cause_of.h"
 #include "support/extremal.h"
 
 namespace beltrami {
@@ -114,15 +115,6 @@ TEST(ExtremalSolver, FactorizesNoMoreThanNeeded) {
     EXPECT_LE(solver.solve().factorizations, first.factorizations + 2);
 }
 
-Cause cause_of(const std::function<void()>& attempt) {
-    try {
-        attempt();
-    } catch (const Error& error) {
-        return error.cause();
-    }
-    return Cause::unreadable;
-}
-
 TEST(ExtremalSolver, WrongImagesAreErrors) {
     const Moving moving({{{0.3, 0.2}, 0.2}}, true);
     const BoundaryCondition good = moving.at(0.3);
@@ -130,15 +122,15 @@ TEST(ExtremalSolver, WrongImagesAreErrors) {
     solver.solve();
     std::vector<Complex> images = good.images;
     images.pop_back();
-    EXPECT_EQ(cause_of([&] { solver.update(images); }), Cause::bad_boundary);
+    EXPECT_EQ(test::cause_of([&] { solver.update(images); }), Cause::bad_boundary);
     images.push_back(0.0);
     images.push_back(0.0);
-    EXPECT_EQ(cause_of([&] { solver.update(images); }), Cause::bad_boundary);
-    EXPECT_EQ(cause_of([&] { solver.update({}); }), Cause::bad_boundary);
+    EXPECT_EQ(test::cause_of([&] { solver.update(images); }), Cause::bad_boundary);
+    EXPECT_EQ(test::cause_of([&] { solver.update({}); }), Cause::bad_boundary);
     // Mirrored loops.
     images = good.images;
     for (Complex& image : images) image = std::conj(image);
-    EXPECT_EQ(cause_of([&] { solver.update(images); }), Cause::bad_boundary);
+    EXPECT_EQ(test::cause_of([&] { solver.update(images); }), Cause::bad_boundary);
 }
 
 // A refused update changes nothing.
@@ -148,7 +140,7 @@ TEST(ExtremalSolver, GoesOnAfterARefusedUpdate) {
     const ExtremalMap before = solver.solve();
     std::vector<Complex> mirrored = moving.at(0.3).images;
     for (Complex& image : mirrored) image = std::conj(image);
-    EXPECT_EQ(cause_of([&] { solver.update(mirrored); }), Cause::bad_boundary);
+    EXPECT_EQ(test::cause_of([&] { solver.update(mirrored); }), Cause::bad_boundary);
     const ExtremalMap after = solver.solve();
     expect_sound(after);
     EXPECT_NEAR(after.k, before.k, 1e-7);

@@ -8,6 +8,7 @@
 #include <beltrami/teichmuller/extremal_solver.h>
 
 #include "problems/mixed_problems.h"
+#include "support/cause_of.h"
 #include "support/extremal.h"
 
 namespace beltrami {
@@ -144,22 +145,13 @@ TEST(SlidingSolver, MayBeUpdatedBeforeItHasSolved) {
     EXPECT_NEAR(solver.solve().k, extremal_map(problem.source, problem.at(1)).k, 1e-6);
 }
 
-Cause cause_of(const std::function<void()>& attempt) {
-    try {
-        attempt();
-    } catch (const Error& error) {
-        return error.cause();
-    }
-    return Cause::unreadable;
-}
-
 TEST(SlidingSolver, GoesOnAfterARefusedUpdate) {
     const Dragged problem = pins_in_a_disk();
     ExtremalSolver solver(problem.source, problem.at(0.5));
     const ExtremalMap before = solver.solve();
     const std::vector<Complex> good = problem.images(0.5);
     const auto refused = [&](std::vector<Complex> images) {
-        EXPECT_EQ(cause_of([&] { solver.update(images); }), Cause::bad_boundary);
+        EXPECT_EQ(test::cause_of([&] { solver.update(images); }), Cause::bad_boundary);
     };
     std::vector<Complex> images = good;
     images[1] = Complex(1.2, 0.3);  // outside
@@ -171,7 +163,7 @@ TEST(SlidingSolver, GoesOnAfterARefusedUpdate) {
     images = good;
     images.pop_back();
     refused(images);
-    EXPECT_EQ(cause_of([&] { solver.update(good, 0); }), Cause::bad_option);
+    EXPECT_EQ(test::cause_of([&] { solver.update(good, 0); }), Cause::bad_option);
     const ExtremalMap after = solver.solve();
     expect_sound(after);
     EXPECT_NEAR(after.k, before.k, 1e-7);
@@ -186,26 +178,26 @@ TEST(SlidingSolver, RefusesMovesOfBoundaryValuesThatNoMapHas) {
     const double k = solver.solve().k;
     std::vector<Complex> wrong = along_the_circle(problem, 0.5);
     for (Complex& image : wrong) image *= 1.05;
-    EXPECT_EQ(cause_of([&] { solver.update(wrong); }), Cause::bad_boundary);
+    EXPECT_EQ(test::cause_of([&] { solver.update(wrong); }), Cause::bad_boundary);
     wrong = along_the_circle(problem, 0.5);
     for (Complex& image : wrong) image = std::conj(image);
-    EXPECT_EQ(cause_of([&] { solver.update(wrong); }), Cause::bad_boundary);
+    EXPECT_EQ(test::cause_of([&] { solver.update(wrong); }), Cause::bad_boundary);
     EXPECT_NEAR(solver.solve().k, k, 1e-7);
     // An outer loop that runs through the hole's curve, or leaves it outside.
     const Dragged outer = ring();
     ExtremalSolver around(outer.source, outer.at(1));
     wrong = outer.images(1);
     for (Complex& image : wrong) image += Complex(0.9, 0);
-    EXPECT_EQ(cause_of([&] { around.update(wrong); }), Cause::bad_boundary);
+    EXPECT_EQ(test::cause_of([&] { around.update(wrong); }), Cause::bad_boundary);
     for (Complex& image : wrong) image += Complex(5, 0);
-    EXPECT_EQ(cause_of([&] { around.update(wrong); }), Cause::bad_boundary);
+    EXPECT_EQ(test::cause_of([&] { around.update(wrong); }), Cause::bad_boundary);
 }
 
 TEST(SlidingSolver, RefusesPinsOutsideTheTargetAtOnce) {
     const Dragged problem = pins_in_a_disk();
     Constraints constraints = problem.at(0);
     constraints.prescribed.images[2] = Complex(0, -2);
-    EXPECT_EQ(cause_of([&] { ExtremalSolver(problem.source, constraints); }), Cause::bad_boundary);
+    EXPECT_EQ(test::cause_of([&] { ExtremalSolver(problem.source, constraints); }), Cause::bad_boundary);
 }
 
 TEST(SlidingSolver, EveningKeepsWhatSlidesAndLowersTheSpread) {
