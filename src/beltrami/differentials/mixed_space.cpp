@@ -54,7 +54,7 @@ std::shared_ptr<const MixedSpace::Family> MixedSpace::family(MixedDomain domain,
     return std::make_shared<const Family>(std::move(result));
 }
 
-MixedSpace::MixedSpace(MixedDomain domain, int degree, int largest_degree, std::vector<int> largest_powers) {
+MixedSpace::MixedSpace(MixedDomain domain, int degree, int largest_degree, const std::vector<int>& largest_powers) {
     int resolving = largest_degree + kMorePowers;
     for (const int power : largest_powers) resolving = std::max(resolving, power + kMorePowers);
     const bool slides = std::any_of(domain.loops.begin(), domain.loops.end(),
@@ -299,7 +299,7 @@ Eigen::MatrixXcd MixedSpace::generators(const ChartPoints& points) const {
 }
 
 std::unique_ptr<DifferentialSpace> MixedSpace::refined() const {
-    int largest_power = 0, degree = degree_, power = power_;
+    int largest_power = 0;
     bool raises = false;
     for (std::size_t l = 0; l < family_->domain.loops.size(); ++l) {
         if (!family_->domain.loops[l].prescribed()) continue;
@@ -308,8 +308,8 @@ std::unique_ptr<DifferentialSpace> MixedSpace::refined() const {
         if (l > 0) largest_power = std::max(largest_power, most);
     }
     if (!raises) return nullptr;
-    degree = std::min(degree_ + std::max(4, degree_ / 2), std::max(degree_, family_->largest_degree));
-    power = std::min(power_ + std::max(2, power_ / 2), std::max(power_, largest_power));
+    const int degree = std::min(degree_ + std::max(4, degree_ / 2), std::max(degree_, family_->largest_degree));
+    const int power = std::min(power_ + std::max(2, power_ / 2), std::max(power_, largest_power));
     std::unique_ptr<MixedSpace> larger(new MixedSpace(*this));
     if (!larger->raise(degree, power) || larger->size() <= size()) return nullptr;
     return larger;

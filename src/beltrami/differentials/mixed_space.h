@@ -37,7 +37,7 @@ class MixedSpace final : public DifferentialSpace {
     /// @param largest_degree refined() goes so far with the outer loop …
     /// @param largest_powers … and with every hole, if it is prescribed in part (one number per hole)
     /// @throw Error not_solved if the gap is not where it should be
-    MixedSpace(MixedDomain domain, int degree, int largest_degree, std::vector<int> largest_powers);
+    MixedSpace(MixedDomain domain, int degree, int largest_degree, const std::vector<int>& largest_powers);
 
     int size() const override { return static_cast<int>(coefficients_.cols()); }
     bool complex_coefficients() const override { return false; }

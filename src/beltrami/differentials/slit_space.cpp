@@ -73,6 +73,7 @@ std::shared_ptr<const SlitSpace::Family> SlitSpace::family(const MixedDomain& do
     for (std::size_t l = 1; l < domain.loops.size(); ++l) {
         const MixedDomain::Loop& hole = domain.loops[l];
         std::vector<Complex> rim;
+        rim.reserve(kPointsOfCircle);
         for (int i = 0; i < kPointsOfCircle; ++i)
             rim.push_back(
                 result.coordinate(hole.centre + std::polar(hole.radius, 2 * std::numbers::pi * i / kPointsOfCircle)));
