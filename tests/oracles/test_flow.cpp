@@ -1,4 +1,4 @@
-// Maps with a prescribed coefficient whose boundary slides: Examples 1 to 3 of Ng, Gu & Lui 2013.
+// Maps with a prescribed coefficient whose boundary slides: Examples 1 to 3 of Ng, Gu & Lui 2014.
 #include <gtest/gtest.h>
 
 #include <algorithm>

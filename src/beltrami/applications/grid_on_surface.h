@@ -39,7 +39,7 @@ struct SurfaceGrid {
     GridQuality quality;
 };
 
-/// Carries a structured grid in the plane back to a surface by the inverse of a one-to-one map (Ng, Gu and Lui 2014,
+/// Carries a structured grid in the plane back to a surface by the inverse of a one-to-one map (Ng, Gu & Lui 2014,
 /// figure 22). Cells are convex in the plane, trimmed ones too, so none folds there; on the surface the quality tells.
 /// Where cells touch at a corner only, the vertex is doubled: the result is a manifold.
 /// @param map #V images in the plane, all faces counter-clockwise; a quad is read as two triangles

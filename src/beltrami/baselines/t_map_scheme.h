@@ -44,7 +44,7 @@ struct TMapSchemeResult : SlidMap {
     std::vector<TMapSolve> history;  ///< one entry a solve, after the start's own
 };
 
-/// The scheme of Ng, Gu & Lui 2013 for the extremal map onto a domain whose boundary slides (Algorithm 3), kept as the
+/// The scheme of Ng, Gu & Lui 2014 for the extremal map onto a domain whose boundary slides (Algorithm 3), kept as the
 /// paper has it for comparison with extremal_map: in turn the map whose coefficient is nearest to (1 − ε)μ, the
 /// boundary sliding, and the projection P (Algorithm 2), solves for L(N(μ)): |μ| replaced by its mean (34), arg μ by
 /// that of its neighbours (36), the boundary fixed.

@@ -57,7 +57,7 @@ struct FlowMap : SlidMap {
     std::vector<FlowIteration> history;
 };
 
-/// The Beltrami holomorphic flow of Ng, Gu & Lui 2013 (sections 5.1 and 6.1): from a start to the map with a given
+/// The Beltrami holomorphic flow of Ng, Gu & Lui 2014 (sections 5.1 and 6.1): from a start to the map with a given
 /// coefficient, its boundary sliding along the curves of the start. Every iteration is one Newton step for
 /// Σ A |∂̄f − μ∂f|²/(1−|μ|²) over the maps whose boundary vertices lie on their curves (sliding_map_step.h), with the
 /// safeguard that keeps them in order.

@@ -12,7 +12,7 @@ void require_coefficient(const Surface& source, const Eigen::VectorXcd& mu);
 
 /// The map f with a given Beltrami coefficient, ∂̄f = μ∂f, and given boundary values: of all maps that are linear on the
 /// triangles (bilinear on the quads) and have these values the one with the least Σ A |∂̄f − μ∂f|²/(1−|μ|²), by one
-/// linear solve (Ng, Gu & Lui 2013, eq. (30), the boundary held; Weber, Myles & Zorin 2012, the step for f). μ = 0
+/// linear solve (Ng, Gu & Lui 2014, eq. (30), the boundary held; Weber, Myles & Zorin 2012, the step for f). μ = 0
 /// gives the harmonic map.
 ///
 /// Boundary values and μ together say more than a map can obey: those with this μ differ by conformal maps of the image

@@ -125,7 +125,7 @@ struct ExtremalMap : MapResult {
 /// harmonic map.
 ///
 /// Boundaries that slide onto a domain of the same kind: every boundary loop goes to its curve, its points slide,
-/// marked points go to marked places. Ng, Gu & Lui 2013 solve this problem; here it is the same iteration with the
+/// marked points go to marked places. Ng, Gu & Lui 2014 solve this problem; here it is the same iteration with the
 /// finite-dimensional space of φ that are real along the boundary, and boundary vertices that move along the true
 /// curves with a safeguard that keeps their order. The homotopy class is that of the way along which the start is led.
 ///

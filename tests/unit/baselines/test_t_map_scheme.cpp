@@ -15,7 +15,7 @@ using test::disk_with_holes;
 using Part = TMapSolve::Part;
 using Projection = TMapSchemeOptions::Projection;
 
-/// Example 5 of Ng, Gu & Lui 2013, whose extremal map has k = .2708.
+/// Example 5 of Ng, Gu & Lui 2014, whose extremal map has k = .2708.
 struct Example5 {
     Surface source{disk_with_holes({{0, 0.5, 0.1}, {-0.4, -0.3, 0.1}, {0.4, -0.3, 0.1}}, 0.12)};
     TargetDomain target = circles_target({{0, 0.5, 0.2}, {-0.4, -0.3, 0.2}, {0.4, -0.3, 0.2}});
