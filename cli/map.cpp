@@ -279,10 +279,6 @@ class Map final : public Command {
         refuse(minimize_ != "K", "--minimize");
         for (const std::string& other : compare_) refuse(!slides(other), "--compare " + other);
         refuse(method_ != "extremal", "--method " + method_);
-        if (start_map_.given() && (slide_.given() || boundary_.given()))
-            throw Error(Cause::bad_option,
-                        "--start-map is for boundaries that are prescribed, or slide by --onto alone",
-                        "leave one of them out");
     }
 
     static bool slides(const std::string& method) {

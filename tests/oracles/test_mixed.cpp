@@ -9,7 +9,10 @@
 #include <beltrami/charts/circle_domain_chart.h>
 #include <beltrami/generate/round_domains.h>
 #include <beltrami/mesh/planar.h>
+#include <beltrami/meshing/planar_domains.h>
+#include <beltrami/teichmuller/extremal_map.h>
 #include <beltrami/teichmuller/extremal_mixed.h>
+#include <beltrami/teichmuller/mixed_conditions.h>
 
 #include "problems/mixed_problems.h"
 
@@ -182,6 +185,65 @@ TEST(Mixed, IsThePrescribedProblemWhereAllIsPrescribed) {
     options.sharpen = -1;
     const ExtremalMap prescribed = extremal_map(source, conditions.prescribed, options);
     EXPECT_NEAR(mixed.k, prescribed.k, 1e-4);
+}
+
+/// A start of one's own changes the way and not the end, whether it folds or not; what is prescribed wins over it.
+TEST(Mixed, GivenStartsHaveTheSameEnd) {
+    const MixedProblemCase problem = bench::two_prescribed_arcs(0.12, false, true);
+    const Surface source(problem.mesh);
+    const ExtremalMap plain = solve(problem);
+    const Eigen::VectorXcd z = planar_coordinates(source.mesh);
+    ExtremalOptions options;
+    options.start = plain.map;
+    const ExtremalMap again = mixed_extremal_map(source, problem.conditions, options);
+    expect_sound(again);
+    EXPECT_EQ(again.start_flips, 0);
+    EXPECT_NEAR(again.k, plain.k, 1e-6);
+    // The source's own plane, turned, with a crease along which it is folded over.
+    options.start = (0.9 * std::polar(1.0, 0.1) * z.array()).matrix();
+    for (Complex& w : *options.start)
+        if (w.real() > 0.55) w.real(1.1 - w.real());
+    const ExtremalMap creased = mixed_extremal_map(source, problem.conditions, options);
+    EXPECT_GT(creased.start_flips, 0);
+    EXPECT_TRUE(creased.one_to_one());
+    EXPECT_NEAR(creased.k, plain.k, 1e-6);
+    EXPECT_EQ(creased.boundary_residual, 0.0);
+    options.start = z.conjugate();
+    EXPECT_THROW(mixed_extremal_map(source, problem.conditions, options), Error);  // the wrong way round
+    options.start = z.head(3);
+    EXPECT_THROW(mixed_extremal_map(source, problem.conditions, options), Error);
+}
+
+/// Prescribed holes take the curves nearest to their images, the others are matched beside them.
+TEST(Mixed, PrescribedHolesTakeTheCurvesNearestToTheirImages) {
+    // Three holes alike at the corners of a triangle: matched, they would stay where they are; one is to go to the
+    // place of the next.
+    const std::vector<RoundHole> holes{
+        {1, std::polar(0.55, 0.0), 0.15}, {2, std::polar(0.55, 2.1), 0.15}, {3, std::polar(0.55, 4.2), 0.15}};
+    std::vector<Circle> circles;
+    for (const RoundHole& hole : holes) circles.push_back({{hole.centre.real(), hole.centre.imag()}, hole.radius});
+    const Surface source(circle_domain({}, circles, {.edge_length = 0.08}));
+    const Eigen::VectorXcd z = planar_coordinates(source.mesh);
+    std::vector<TargetCurve> curves;
+    for (const RoundHole& hole : holes) curves.push_back(TargetCurve::circle(hole.centre, hole.radius));
+    const TargetDomain target = target_domain(TargetCurve::circle(0, 1), curves);
+    int first = 0;
+    for (int l = 1; l < 4; ++l)
+        if (std::abs(z[source.topology.boundary_loops[l][0]] - holes[0].centre) < 0.2) first = l;
+    Constraints constraints(target);
+    const Complex turn = holes[1].centre / holes[0].centre;
+    for (const int v : source.topology.boundary_loops[first]) constraints.prescribed.pin(v, turn * z[v]);
+    const MixedConditions conditions = mixed_conditions(source, constraints);
+    ASSERT_FALSE(conditions.curves[first].has_value());
+    for (int l = 1; l < 4; ++l) {
+        if (l == first) continue;
+        const Complex at = z[source.topology.boundary_loops[l][0]] * turn;
+        EXPECT_LT(std::abs(conditions.curves[l]->point(conditions.curves[l]->nearest(at)) - at), 0.02);
+    }
+    const ExtremalMap result = extremal_map(source, constraints);
+    EXPECT_TRUE(result.one_to_one());
+    EXPECT_EQ(result.boundary_residual, 0.0);
+    EXPECT_LT(result.k, 0.02);  // nearly the rotation
 }
 
 TEST(Mixed, RefusesWhatIsNotSaidAndWhatCannotBe) {

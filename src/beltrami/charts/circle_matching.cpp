@@ -110,12 +110,16 @@ std::vector<int> cheapest_assignment(const std::vector<std::vector<double>>& cos
 
 class Matcher {
   public:
-    Matcher(std::span<const RoundHole> source, std::span<const RoundHole> target,
-            const std::vector<PlacePair>& places) {
+    Matcher(std::span<const RoundHole> source, std::span<const RoundHole> target, const CircleMatchingOptions& options)
+        : fixed_partner_(source.size(), -1), fixed_for_(source.size(), -1) {
+        for (const auto& [i, j] : options.pairs) {
+            fixed_partner_[i] = j;
+            fixed_for_[j] = i;
+        }
         for (const RoundHole& hole : source) source_.push_back(hyperbolic_circle(hole));
         for (const RoundHole& hole : target) target_.push_back(hyperbolic_circle(hole));
         places_.setZero();
-        for (const PlacePair& pair : places) places_ += form_of(pair);
+        for (const PlacePair& pair : options.places) places_ += form_of(pair);
         const std::size_t n = source.size();
         forms_.resize(n * n);
         for (std::size_t i = 0; i < n; ++i)
@@ -165,7 +169,9 @@ class Matcher {
         std::vector<std::vector<double>> cost(source_.size(), std::vector<double>(target_.size()));
         for (std::size_t i = 0; i < source_.size(); ++i)
             for (std::size_t j = 0; j < target_.size(); ++j)
-                cost[i][j] = hyperbolic_gap(move(source_[i].centre), target_[j].centre) + radius_gap(i, j);
+                cost[i][j] = may_pair(i, j)
+                                 ? hyperbolic_gap(move(source_[i].centre), target_[j].centre) + radius_gap(i, j)
+                                 : kForbidden;
         return cheapest_assignment(cost);
     }
 
@@ -212,6 +218,12 @@ class Matcher {
   private:
     /// Differences of costs, radii, centres and rotations that count as none.
     static constexpr std::array<double, 4> kTies{kEqual, kEqual, 1e-6, 1e-6};
+    /// Above the sum of all gaps of holes that double precision tells from the circle.
+    static constexpr double kForbidden = 1e30;
+
+    bool may_pair(std::size_t i, std::size_t j) const {
+        return fixed_partner_[i] < 0 ? fixed_for_[j] < 0 : fixed_partner_[i] == static_cast<int>(j);
+    }
 
     double radius_gap(std::size_t i, std::size_t j) const {
         return std::pow(std::sinh(0.5 * (source_[i].radius - target_[j].radius)), 2);
@@ -227,7 +239,7 @@ class Matcher {
             (fit_of(partner).cost + radii_of(partner)) / size_ > rank_[0] + 2 * kEqual)
             return;
         for (std::size_t j = 0; j < n; ++j) {
-            if (taken[j]) continue;
+            if (taken[j] || !may_pair(partner.size(), j)) continue;
             taken[j] = 1;
             partner.push_back(static_cast<int>(j));
             offer_from(partner, taken);
@@ -237,6 +249,7 @@ class Matcher {
     }
 
     std::vector<HyperbolicCircle> source_, target_;
+    std::vector<int> fixed_partner_, fixed_for_;  ///< of source and target holes, -1: none
     Form places_;
     std::vector<Form> forms_;  ///< of source hole i and target hole j at i·n + j
     double size_ = 1e-300;
@@ -278,11 +291,15 @@ CircleMatching match_circle_domains(std::span<const RoundHole> source, std::span
                     "the source has " + std::to_string(n) + " holes, the target " + std::to_string(target.size()),
                     "both domains need the same number of boundary loops");
     if (n == 0) return {{}, best_move(options.places), 0};
-    Matcher matcher(source, target, options.places);
+    Matcher matcher(source, target, options);
     if (options.by == MatchBy::size) {
-        const std::vector<int> from = largest_first(source), to = largest_first(target);
-        std::vector<int> partner(n);
-        for (std::size_t i = 0; i < n; ++i) partner[from[i]] = to[i];
+        std::vector<int> from = largest_first(source), to = largest_first(target), partner(n);
+        for (const auto& [i, j] : options.pairs) {
+            partner[i] = j;
+            std::erase(from, i);
+            std::erase(to, j);
+        }
+        for (std::size_t i = 0; i < from.size(); ++i) partner[from[i]] = to[i];
         matcher.offer(partner);
         return matcher.best();
     }

@@ -18,6 +18,8 @@ struct PlacePair {
 struct CircleMatchingOptions {
     MatchBy by = MatchBy::position;
     std::vector<PlacePair> places = {};  ///< marked ones, whose fit counts as well
+    /// Holes of the source that are paired already, and of the target with which; no two with the same.
+    std::vector<std::array<int, 2>> pairs = {};
 };
 
 /// A one-to-one correspondence of the holes of two circle domains.

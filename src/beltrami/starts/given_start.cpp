@@ -26,16 +26,6 @@ int nearest_curve(const std::vector<int>& loop, const TargetDomain& target, cons
     return best;
 }
 
-void require_values(const Surface& source, const Eigen::VectorXcd& map) {
-    if (map.size() != source.mesh.vertex_count())
-        throw Error(Cause::bad_option, "the start has " + std::to_string(map.size()) + " values, the source " +
-                                           std::to_string(source.mesh.vertex_count()) + " vertices");
-    for (Eigen::Index v = 0; v < map.size(); ++v)
-        if (!std::isfinite(map[v].real()) || !std::isfinite(map[v].imag()))
-            throw Error(Cause::bad_option, "the start is not finite at vertex " + std::to_string(v), "",
-                        {Things::vertices, {static_cast<int>(v)}});
-}
-
 /// The curve of every loop.
 std::vector<int> curves_of(const Surface& source, const TargetDomain& target, const Eigen::VectorXcd& map,
                            const Correspondence& wanted) {
@@ -70,31 +60,28 @@ std::vector<double> arc_of(const Surface& source, int loop) {
     return arc;
 }
 
-/// Moves increasing parameters so that the marked vertices lie at their places, and all stay in order.
-void move_to_marks(const std::vector<int>& loop, int curve_index, const std::vector<Mark>& marks,
-                   SlidingLoop& sliding) {
+/// Moves increasing parameters so that what is held lies at its places, and all stay in order.
+void move_to_places(const std::vector<std::pair<std::size_t, double>>& places, SlidingLoop& sliding) {
     struct Fixed {
         std::size_t at;
         double from, to;
     };
     std::vector<Fixed> fixed;
     const double length = sliding.curve.length();
-    for (std::size_t i = 0; i < loop.size(); ++i)
-        for (const Mark& mark : marks) {
-            if (mark.vertex != loop[i] || on_curve(mark).curve != curve_index) continue;
-            const double from = sliding.parameters[i], place = on_curve(mark).parameter;
-            double to = from + sliding.curve.ahead(from, place);
-            if (fixed.empty()) {
-                if (to - from > length / 2) to -= length;
-            } else {
-                to = fixed.back().to + sliding.curve.ahead(fixed.back().to, place);
-            }
-            fixed.push_back({i, from, to});
-            sliding.held[i] = 1;
+    for (const auto& [i, place] : places) {
+        const double from = sliding.parameters[i];
+        double to = from + sliding.curve.ahead(from, place);
+        if (fixed.empty()) {
+            if (to - from > length / 2) to -= length;
+        } else {
+            to = fixed.back().to + sliding.curve.ahead(fixed.back().to, place);
         }
+        fixed.push_back({i, from, to});
+        sliding.held[i] = 1;
+    }
     if (fixed.empty()) return;
     const std::vector<double> before = sliding.parameters;
-    const std::size_t n = loop.size(), m = fixed.size();
+    const std::size_t n = before.size(), m = fixed.size();
     for (std::size_t j = 0; j < m; ++j) {
         const Fixed a = fixed[j];
         Fixed b = fixed[(j + 1) % m];
@@ -106,7 +93,7 @@ void move_to_marks(const std::vector<int>& loop, int curve_index, const std::vec
     }
 }
 
-SlidingLoop sliding_loop(const Surface& source, int l, const TargetCurve& curve, const Eigen::VectorXcd& map) {
+SlidingLoop in_order(const Surface& source, int l, const TargetCurve& curve, const Eigen::VectorXcd& map) {
     SlidingLoop sliding{l, curve, {}, {}};
     const std::vector<int>& loop = source.topology.boundary_loops[l];
     const double length = curve.length();
@@ -133,6 +120,23 @@ SlidingLoop sliding_loop(const Surface& source, int l, const TargetCurve& curve,
 
 }  // namespace
 
+void require_values(const Surface& source, const Eigen::VectorXcd& map) {
+    if (map.size() != source.mesh.vertex_count())
+        throw Error(Cause::bad_option, "the start has " + std::to_string(map.size()) + " values, the source " +
+                                           std::to_string(source.mesh.vertex_count()) + " vertices");
+    for (Eigen::Index v = 0; v < map.size(); ++v)
+        if (!std::isfinite(map[v].real()) || !std::isfinite(map[v].imag()))
+            throw Error(Cause::bad_option, "the start is not finite at vertex " + std::to_string(v), "",
+                        {Things::vertices, {static_cast<int>(v)}});
+}
+
+SlidingLoop given_loop(const Surface& source, int loop, const TargetCurve& curve, const Eigen::VectorXcd& map,
+                       const std::vector<std::pair<std::size_t, double>>& places) {
+    SlidingLoop result = in_order(source, loop, curve, map);
+    move_to_places(places, result);
+    return result;
+}
+
 SlidingStart given_start(const Surface& source, const TargetDomain& target, const Eigen::VectorXcd& map,
                          const Correspondence& wanted) {
     require_values(source, map);
@@ -141,8 +145,12 @@ SlidingStart given_start(const Surface& source, const TargetDomain& target, cons
     start.curves = curves_of(source, target, map, wanted);
     const auto& loops = source.topology.boundary_loops;
     for (std::size_t l = 0; l < loops.size(); ++l) {
-        SlidingLoop sliding = sliding_loop(source, static_cast<int>(l), target.curve(start.curves[l]), map);
-        move_to_marks(loops[l], start.curves[l], wanted.marks, sliding);
+        std::vector<std::pair<std::size_t, double>> places;
+        for (std::size_t i = 0; i < loops[l].size(); ++i)
+            for (const Mark& mark : wanted.marks)
+                if (mark.vertex == loops[l][i] && on_curve(mark).curve == start.curves[l])
+                    places.emplace_back(i, on_curve(mark).parameter);
+        SlidingLoop sliding = given_loop(source, static_cast<int>(l), target.curve(start.curves[l]), map, places);
         for (std::size_t i = 0; i < loops[l].size(); ++i)
             start.map[loops[l][i]] = sliding.curve.point(sliding.parameters[i]);
         start.loops.push_back(std::move(sliding));

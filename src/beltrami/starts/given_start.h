@@ -1,5 +1,8 @@
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include <beltrami/starts/sliding_start.h>
 
 namespace beltrami {
@@ -16,5 +19,15 @@ namespace beltrami {
 ///        curve, a loop that does not run around its curve once
 SlidingStart given_start(const Surface& source, const TargetDomain& target, const Eigen::VectorXcd& map,
                          const Correspondence& wanted = {});
+
+/// @throw Error bad_option unless a map has a finite value for every vertex
+void require_values(const Surface& source, const Eigen::VectorXcd& map);
+
+/// One loop of that: its vertices at the nearest points of the curve, in order, and so that those which are held lie at
+/// their places, vertices between moved along in proportion.
+/// @param places (position in the loop, parameter on the curve) of what is held, in the order of the loop
+/// @throw Error bad_boundary as given_start
+SlidingLoop given_loop(const Surface& source, int loop, const TargetCurve& curve, const Eigen::VectorXcd& map,
+                       const std::vector<std::pair<std::size_t, double>>& places);
 
 }  // namespace beltrami

@@ -86,7 +86,7 @@ bool is_drawn(const Surface& source, const CircleDomainChart& chart, const LoopP
 }  // namespace
 
 LoopPartners loop_partners(const Surface& source, const CircleDomainChart& chart, const TargetModel& target,
-                           const Correspondence& wanted) {
+                           const Correspondence& wanted, std::span<const std::array<int, 2>> known) {
     const int loops = static_cast<int>(source.topology.boundary_loops.size());
     const int curves = target.domain().curve_count();
     if (loops != curves)
@@ -96,8 +96,11 @@ LoopPartners loop_partners(const Surface& source, const CircleDomainChart& chart
     LoopPartners result;
     std::vector<PlacePair> places = marked_places(source, chart, target, wanted.marks);
     if (wanted.loops.empty()) {
-        const CircleMatching matching =
-            match_circle_domains(chart.holes, target.holes(), {.by = wanted.match_by, .places = places});
+        CircleMatchingOptions options{.by = wanted.match_by, .places = places};
+        for (const auto& [loop, curve] : known)
+            for (std::size_t h = 0; h < chart.holes.size(); ++h)
+                if (chart.holes[h].loop == loop) options.pairs.push_back({static_cast<int>(h), curve - 1});
+        const CircleMatching matching = match_circle_domains(chart.holes, target.holes(), options);
         result.curves.assign(loops, 0);
         for (std::size_t h = 0; h < chart.holes.size(); ++h)
             result.curves[chart.holes[h].loop] = matching.partner[h] + 1;

@@ -1,6 +1,8 @@
 #include <beltrami/teichmuller/mixed_conditions.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <string>
 
 #include <beltrami/base/error.h>
@@ -28,13 +30,48 @@ std::vector<char> wholly_prescribed(const Surface& source, const BoundaryConditi
     return result;
 }
 
+/// Holes that are prescribed take the places of the target's holes to which their images are nearest.
+std::vector<std::array<int, 2>> nearest_curves(const Surface& source, const TargetDomain& target,
+                                               const BoundaryCondition& prescribed, int outer_loop) {
+    struct Pair {
+        double distance;
+        std::array<int, 2> loop_and_curve;
+    };
+    const std::vector<char> wholly = wholly_prescribed(source, prescribed);
+    std::vector<Complex> image(source.mesh.vertex_count());
+    for (std::size_t i = 0; i < prescribed.vertices.size(); ++i) image[prescribed.vertices[i]] = prescribed.images[i];
+    std::vector<Pair> pairs;
+    for (std::size_t l = 0; l < wholly.size(); ++l) {
+        if (!wholly[l] || static_cast<int>(l) == outer_loop) continue;
+        for (int c = 1; c < target.curve_count(); ++c) {
+            const TargetCurve& curve = target.curve(c);
+            double distance = 0;
+            for (const int v : source.topology.boundary_loops[l])
+                distance += std::abs(curve.point(curve.nearest(image[v])) - image[v]);
+            pairs.push_back(
+                {distance / static_cast<double>(source.topology.boundary_loops[l].size()), {static_cast<int>(l), c}});
+        }
+    }
+    std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.distance < b.distance; });
+    std::vector<std::array<int, 2>> result;
+    for (const Pair& pair : pairs) {
+        const auto [loop, curve] = pair.loop_and_curve;
+        if (std::none_of(result.begin(), result.end(),
+                         [&](const auto& taken) { return taken[0] == loop || taken[1] == curve; }))
+            result.push_back(pair.loop_and_curve);
+    }
+    return result;
+}
+
 /// The curve of the target for every loop.
-std::vector<int> partners(const Surface& source, const TargetDomain& target, const Correspondence& wanted,
-                          double edge_length) {
+std::vector<int> partners(const Surface& source, const TargetDomain& target, const BoundaryCondition& prescribed,
+                          const Correspondence& wanted, double edge_length) {
     const std::size_t loops = source.topology.boundary_loops.size();
     if (loops == 1 && target.curve_count() == 1) return {0};
     const auto model = target_model(target, edge_length_for(source, target, edge_length));
-    return loop_partners(source, circle_domain_chart(source, wanted.outer_loop), *model, wanted).curves;
+    return loop_partners(source, circle_domain_chart(source, wanted.outer_loop), *model, wanted,
+                         nearest_curves(source, target, prescribed, wanted.outer_loop))
+        .curves;
 }
 
 }  // namespace
@@ -63,7 +100,7 @@ MixedConditions mixed_conditions(const Surface& source, const Constraints& const
         if (arc.along) result.curves[loop] = arc.along;
     }
     if (const TargetDomain* target = constraints.domain()) {
-        const std::vector<int> curves = partners(source, *target, wanted, edge_length);
+        const std::vector<int> curves = partners(source, *target, constraints.prescribed, wanted, edge_length);
         for (std::size_t l = 0; l < slides.size(); ++l)
             if (slides[l] && !result.curves[l]) result.curves[l] = target->curve(curves[l]);
         for (const Mark& mark : wanted.marks) {

@@ -15,6 +15,8 @@
 #include <beltrami/differentials/mixed_space.h>
 #include <beltrami/differentials/polynomial_space.h>
 #include <beltrami/differentials/slit_space.h>
+#include <beltrami/mesh/subdivide.h>
+#include <beltrami/starts/given_start.h>
 #include <beltrami/teichmuller/problem.h>
 #include <beltrami/teichmuller/sliding_feasibility.h>
 
@@ -72,9 +74,7 @@ bool all_slides(const MixedBoundary& boundary) {
 PreparedProblem prepare_mixed(const Surface& source, const MixedConditions& conditions,
                               const ExtremalOptions& options) {
     options.validate();
-    if (options.start)
-        throw Error(Cause::bad_option, "a start is given where boundaries slide in part",
-                    "give one where they are prescribed or slide everywhere");
+    if (options.start) require_values(source, *options.start);
     require_genus_zero(source);
     const auto& loops = source.topology.boundary_loops;
     if (conditions.outer_loop < 0 || conditions.outer_loop >= static_cast<int>(loops.size()))
@@ -190,6 +190,7 @@ MixedProblem::MixedProblem(const Surface& source, MixedConditions conditions, co
       marks_(marks),
       boundary_(mixed_boundary(this->source(), conditions_)) {
     feasible_places(boundary_);
+    if (options.start) given_start_ = split() ? with_parents_means(*options.start, split()->parents) : *options.start;
 }
 
 /// Where prescribed vertices stand on the loops that slide, if they can.
@@ -200,7 +201,8 @@ std::vector<SlidingLoop> MixedProblem::feasible_places(const MixedBoundary& boun
 }
 
 SlidingStart MixedProblem::start() const {
-    SlidingStart result = mixed_start(source(), domain(), boundary_);
+    SlidingStart result =
+        given_start_ ? mixed_start(source(), boundary_, *given_start_) : mixed_start(source(), domain(), boundary_);
     result.curves.resize(boundary_.held.size());  // every loop has one of its own
     std::iota(result.curves.begin(), result.curves.end(), 0);
     SlidingBoundary(source(), result.loops, boundary_.prescribed).place(result.map);

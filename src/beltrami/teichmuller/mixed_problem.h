@@ -21,6 +21,8 @@ class MixedProblem final : public SlidingProblem {
                  std::size_t marks = 0);
 
     SlidingStart start() const override;
+    bool has_given_start() const override { return given_start_.has_value(); }
+    void forget_given_start() override { given_start_.reset(); }
     AdmissibleDifferentials differentials(const Eigen::VectorXcd& start, BeltramiSolver& solver) const override;
     const BoundaryCondition& prescribed() const override { return boundary_.prescribed; }
     BoundaryCondition marked() const override { return {}; }
@@ -32,6 +34,7 @@ class MixedProblem final : public SlidingProblem {
     MixedConditions conditions_;
     std::size_t marks_;
     MixedBoundary boundary_;
+    std::optional<Eigen::VectorXcd> given_start_;  ///< of source()
 };
 
 }  // namespace beltrami

@@ -4,11 +4,13 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include <beltrami/base/error.h>
 #include <beltrami/operators/distortion.h>
 #include <beltrami/solve/dirichlet_solver.h>
 #include <beltrami/solve/sliding_map_step.h>
+#include <beltrami/starts/given_start.h>
 #include <beltrami/unfold/fold_free.h>
 
 namespace beltrami {
@@ -50,6 +52,12 @@ Similarity fitted(const Eigen::VectorXcd& z, const BoundaryCondition& prescribed
     return {product / square, to - product / square * from};
 }
 
+/// Whether a vertex is held beside one that is not.
+bool ends_arc(const std::vector<char>& held, std::size_t i) {
+    const std::size_t n = held.size();
+    return held[i] && (!held[(i + 1) % n] || !held[(i + n - 1) % n]);
+}
+
 /// Where the vertices of one loop stand along its curve.
 class LoopPlaces {
   public:
@@ -84,10 +92,6 @@ class LoopPlaces {
     SlidingLoop sliding(int loop) const { return {loop, curve_, parameters_, held_}; }
 
   private:
-    bool ends_arc(int i) const {
-        const int n = static_cast<int>(vertices_.size());
-        return held_[i] && (!held_[(i + 1) % n] || !held_[(i + n - 1) % n]);
-    }
     double turn(int i) const {
         const int n = static_cast<int>(vertices_.size());
         return turns_[i % n] + (i >= n ? turns_[n] : 0);
@@ -113,12 +117,12 @@ class LoopPlaces {
     void place_between(int first) {
         const int n = static_cast<int>(vertices_.size());
         // From one end of an arc to the next.
-        while (!ends_arc(first)) ++first;
+        while (!ends_arc(held_, first)) ++first;
         std::vector<double> unwound(n + 1, 0.0);  // by positions from first on
         unwound[0] = parameter_of(first);
         for (int i = 0; i < n;) {
             int j = i + 1;
-            while (!ends_arc((first + j) % n)) ++j;
+            while (!ends_arc(held_, (first + j) % n)) ++j;
             const int from = (first + i) % n, to = (first + j) % n;
             const double begin = unwound[i];
             const double length = j == n && i == 0 ? curve_.length() : curve_.ahead(begin, parameter_of(to));
@@ -210,6 +214,41 @@ bool push(const Surface& source, const std::vector<int>& vertices, const std::ve
         }
     }
     return false;
+}
+
+/// Opens the folds of a start, if it can, with what has no freedom where it is.
+void open(const Surface& source, const std::vector<Freedom>& freedom, SlidingStart& start) {
+    FoldFreeOptions options;
+    options.max_iterations = kOpeningSteps;
+    const FoldFreeMap opened =
+        fold_free_map(source, freedom, Eigen::VectorXcd::Zero(source.operators.sample_count()), start.map, options);
+    start.factorizations += opened.factorizations;
+    if (!opened.fold_free) return;
+    start.map = opened.map;
+    start.unfolded = true;
+}
+
+/// Brings what is constrained inside to its places; folds that come of it are opened.
+void place_inside(const Surface& source, const BoundaryCondition& prescribed, SlidingStart& start) {
+    std::vector<int> inside;
+    std::vector<Complex> places;
+    for (std::size_t i = 0; i < prescribed.vertices.size(); ++i)
+        if (!source.topology.on_boundary[prescribed.vertices[i]]) {
+            inside.push_back(prescribed.vertices[i]);
+            places.push_back(prescribed.images[i]);
+        }
+    for (const auto& line : prescribed.lines) {
+        const Complex along = line.direction / std::abs(line.direction);
+        inside.push_back(line.vertex);
+        places.push_back(line.point + along * std::real(std::conj(along) * (start.map[line.vertex] - line.point)));
+    }
+    if (inside.empty()) return;
+    push(source, inside, places, start.map);
+    for (std::size_t i = 0; i < inside.size(); ++i) start.map[inside[i]] = places[i];
+    if (folded(source, start.map) == 0) return;
+    std::vector<Freedom> freedom = dirichlet_freedoms(source);
+    for (const int v : inside) freedom[v] = Freedom::fixed;
+    open(source, freedom, start);
 }
 
 /// Turns the loops without held vertices to where the harmonic map has least energy; whether any was.
@@ -320,46 +359,43 @@ std::vector<SlidingLoop> places_on_curves(const Surface& source, const CircleDom
 SlidingStart mixed_start(const Surface& source, const CircleDomainChart& domain, const MixedBoundary& boundary) {
     SlidingStart result;
     result.loops = places_on_curves(source, domain, boundary);
-    // Without what is constrained inside, which follows.
-    std::vector<int> inside;
-    for (const int v : boundary.prescribed.vertices)
-        if (!source.topology.on_boundary[v]) inside.push_back(v);
-    for (const auto& line : boundary.prescribed.lines) inside.push_back(line.vertex);
     const auto harmonic = [&] {
         ++result.factorizations;
         result.map = harmonic_map(source, rim_of(source, all_prescribed(source, boundary, result.loops)));
         return folded(source, result.map);
     };
     result.flips = harmonic();
-    const auto open = [&](const std::vector<Freedom>& freedom) {
-        FoldFreeOptions options;
-        options.max_iterations = kOpeningSteps;
-        const FoldFreeMap opened = fold_free_map(
-            source, freedom, Eigen::VectorXcd::Zero(source.operators.sample_count()), result.map, options);
-        result.factorizations += opened.factorizations;
-        if (!opened.fold_free) return;
-        result.map = opened.map;
-        result.unfolded = true;
-    };
     if (result.flips > 0) {
         const bool still = !turn_loops(source, boundary, result) || harmonic() > 0;
-        if (still) open(dirichlet_freedoms(source));
+        if (still) open(source, dirichlet_freedoms(source), result);
     }
-    if (inside.empty()) return result;
-    std::vector<Complex> places;
-    for (std::size_t i = 0; i < boundary.prescribed.vertices.size(); ++i)
-        if (!source.topology.on_boundary[boundary.prescribed.vertices[i]])
-            places.push_back(boundary.prescribed.images[i]);
-    for (const auto& line : boundary.prescribed.lines) {
-        const Complex along = line.direction / std::abs(line.direction);
-        places.push_back(line.point + along * std::real(std::conj(along) * (result.map[line.vertex] - line.point)));
+    place_inside(source, boundary.prescribed, result);
+    return result;
+}
+
+SlidingStart mixed_start(const Surface& source, const MixedBoundary& boundary, const Eigen::VectorXcd& map) {
+    SlidingStart result;
+    require_values(source, map);
+    result.map = map;
+    const BoundaryCondition& prescribed = boundary.prescribed;
+    const BoundaryCondition rim = rim_of(source, prescribed);
+    for (std::size_t i = 0; i < rim.vertices.size(); ++i) result.map[rim.vertices[i]] = rim.images[i];
+    for (int l = 0; l < static_cast<int>(boundary.held.size()); ++l) {
+        if (!boundary.slides(l)) continue;
+        const auto& loop = source.topology.boundary_loops[l];
+        const TargetCurve& curve = *boundary.curves[l];
+        // Inside prescribed arcs vertices need not lie on the curve.
+        std::vector<std::pair<std::size_t, double>> places;
+        for (std::size_t i = 0; i < loop.size(); ++i)
+            if (ends_arc(boundary.held[l], i)) places.emplace_back(i, curve.nearest(result.map[loop[i]]));
+        SlidingLoop sliding = given_loop(source, l, curve, result.map, places);
+        sliding.held = boundary.held[l];
+        for (std::size_t i = 0; i < loop.size(); ++i)
+            if (!sliding.held[i]) result.map[loop[i]] = curve.point(sliding.parameters[i]);
+        result.loops.push_back(std::move(sliding));
     }
-    push(source, inside, places, result.map);
-    for (std::size_t i = 0; i < inside.size(); ++i) result.map[inside[i]] = places[i];
-    if (folded(source, result.map) == 0) return result;
-    std::vector<Freedom> freedom = dirichlet_freedoms(source);
-    for (const int v : inside) freedom[v] = Freedom::fixed;
-    open(freedom);
+    result.flips = folded(source, result.map);
+    place_inside(source, prescribed, result);
     return result;
 }
 

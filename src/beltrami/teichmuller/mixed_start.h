@@ -40,4 +40,12 @@ std::vector<SlidingLoop> places_on_curves(const Surface& source, const CircleDom
 /// @throw Error as places_on_curves
 SlidingStart mixed_start(const Surface& source, const CircleDomainChart& domain, const MixedBoundary& boundary);
 
+/// The same from a given map, folded or not: sliding vertices go to the nearest points of their curves
+/// (given_start.h), what is prescribed to its place, the rest stays where that leaves no folds.
+/// @param map #V values in the target's plane
+/// @throw Error bad_option unless there is a finite value for every vertex; bad_boundary: a loop that does not run
+/// around
+///        its curve once
+SlidingStart mixed_start(const Surface& source, const MixedBoundary& boundary, const Eigen::VectorXcd& map);
+
 }  // namespace beltrami

@@ -135,6 +135,27 @@ TEST(CircleMatching, MarkedPlacesCount) {
     EXPECT_NEAR(best_rotation(one).rotation, kPi / 2, 1e-12);
 }
 
+/// Pairs that are known stand; the best of the other correspondences is found beside them, for few holes and for many.
+TEST(CircleMatching, KnownPairsStand) {
+    for (const int n : {4, 12}) {
+        std::vector<RoundHole> holes;
+        for (int i = 0; i < n; ++i) holes.push_back({i + 1, std::polar(0.6, 2 * kPi * i / n), 0.05});
+        CircleMatchingOptions options;
+        options.pairs = {{0, 1}};
+        for (const MatchBy by : {MatchBy::position, MatchBy::size}) {
+            options.by = by;
+            const CircleMatching match = match_circle_domains(holes, holes, options);
+            EXPECT_EQ(match.partner[0], 1);
+            std::vector<int> sorted = match.partner;
+            std::sort(sorted.begin(), sorted.end());
+            for (int i = 0; i < n; ++i) EXPECT_EQ(sorted[i], i);
+            if (by == MatchBy::size) continue;
+            for (int i = 0; i < n; ++i) EXPECT_EQ(match.partner[i], (i + 1) % n);  // all turn with it
+            EXPECT_NEAR(match.move.rotation, 2 * kPi / n, 1e-6);
+        }
+    }
+}
+
 TEST(CircleMatching, TwoHolesArePairedByTheirSizes) {
     // Any two places can be exchanged by a Möbius map.
     const std::vector<RoundHole> source{{1, {0.5, 0}, 0.1}, {2, {-0.3, 0.2}, 0.3}};
