@@ -246,6 +246,29 @@ TEST(Mixed, PrescribedHolesTakeTheCurvesNearestToTheirImages) {
     EXPECT_LT(result.k, 0.02);  // nearly the rotation
 }
 
+/// φ has no more degrees than the rim resolves: with twelve the iteration on this dome went astray, to K below 1.
+TEST(Mixed, FewRimVerticesShowFewDifferentials) {
+    Mesh dome = disk(4);
+    dome.positions.conservativeResize(Eigen::NoChange, 3);
+    for (int v = 0; v < dome.vertex_count(); ++v)
+        dome.positions(v, 2) = 3 * (1 - dome.positions.row(v).head<2>().squaredNorm());
+    const Surface source(dome);
+    const auto& loop = source.topology.boundary_loops[0];
+    const auto n = static_cast<int>(loop.size());
+    MixedConditions conditions;
+    conditions.curves = {TargetCurve::circle(0, 1)};
+    for (int i = 0; i <= n / 2; ++i) {
+        const double t = 2 * std::numbers::pi * i / n;
+        conditions.prescribed.pin(loop[i], std::polar(1.0, t + 0.6 * std::sin(t)));
+    }
+    const ExtremalMap result = mixed_extremal_map(source, conditions);
+    EXPECT_EQ(result.termination, Termination::converged);
+    EXPECT_TRUE(result.one_to_one());
+    EXPECT_GE(result.K, 1);
+    EXPECT_LE(result.K_lower, result.K);
+    EXPECT_LT(result.distortion.mean, 0.45);
+}
+
 TEST(Mixed, RefusesWhatIsNotSaidAndWhatCannotBe) {
     const MixedProblemCase problem = bench::two_prescribed_arcs(0.2, false, false);
     const Surface source(problem.mesh);

@@ -18,6 +18,7 @@
 #include <beltrami/mesh/subdivide.h>
 #include <beltrami/starts/given_start.h>
 #include <beltrami/teichmuller/problem.h>
+#include <beltrami/teichmuller/rim_degree.h>
 #include <beltrami/teichmuller/sliding_feasibility.h>
 
 namespace beltrami {
@@ -26,7 +27,7 @@ namespace {
 
 /// Degree of the first space. Where the condition changes along a loop about half of all functions of a degree are
 /// admissible: twice as many are resolved, and fewer than so many describe nothing.
-constexpr int kFirstDegree = 8, kFirstMixedDegree = 12, kLargestMixedDegree = 24;
+constexpr int kFirstDegree = 8, kFirstMixedDegree = 12, kLargestMixedDegree = 24, kMixedDegreeOfRim = 2;
 /// Powers of J of all slits together, and of one to begin with. Along an edge of length e at the end of a slit of
 /// length L J^-n turns by 2n √(e/L): by no more than so many radians, where the mesh is to resolve it.
 constexpr int kMostSlitPowers = 60, kFirstSlitPowers = 12;
@@ -177,6 +178,7 @@ AdmissibleDifferentials mixed_differentials(const Surface& source, const CircleD
         first = kFirstMixedDegree;
         largest = std::clamp(2 * largest, first, kLargestMixedDegree);
     }
+    if (!straight) largest = std::min(largest, kMixedDegreeOfRim * degree_of_rim(source, result.chart));
     auto space = std::make_unique<MixedSpace>(std::move(mixed), std::min(first, largest), largest, powers);
     if (space->size() > 0) result.space = std::move(space);
     return result;

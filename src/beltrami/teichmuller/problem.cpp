@@ -10,6 +10,7 @@
 #include <beltrami/differentials/rational_space.h>
 #include <beltrami/mesh/boundary_position.h>
 #include <beltrami/plane/inside_polygon.h>
+#include <beltrami/teichmuller/rim_degree.h>
 
 namespace beltrami {
 
@@ -31,10 +32,6 @@ constexpr double kLeastCosine = 0.5, kFreePart = 0.5;
 /// A curve held to a line bends sharply where it turns by more than this (radians).
 constexpr double kSharpBend = 0.4;
 
-/// A function of degree d turns d times along the rim: so many edges for each turn, of the length that a place of the
-/// rim sees on average.
-constexpr double kEdgesPerTurn = 5;
-constexpr int kLeastDegree = 4;
 /// Distance from the unit circle of a chart's vertex that lies on it.
 constexpr double kRound = 1e-3;
 /// The plane of a chart is no metric where it turns over more of itself.
@@ -142,15 +139,7 @@ bool ExtremalProblem::chart_is_round() const {
 int ExtremalProblem::largest_degree() const {
     const int of_mesh = PolynomialSpace::largest_degree(source_.operators.sample_count());
     if (!is_round(source_, chart_)) return of_mesh;
-    double length = 0, squares = 0;
-    const auto& rim = source_.topology.boundary_loops[0];
-    for (std::size_t i = 0; i < rim.size(); ++i) {
-        const double edge = std::abs(chart_.vertices[rim[(i + 1) % rim.size()]] - chart_.vertices[rim[i]]);
-        length += edge;
-        squares += edge * edge;
-    }
-    const double of_rim = 2 * std::numbers::pi / (kEdgesPerTurn * squares / length);
-    return std::clamp(of_mesh, 1, std::max(kLeastDegree, static_cast<int>(of_rim)));
+    return std::clamp(of_mesh, 1, degree_of_rim(source_, chart_));
 }
 
 void ExtremalProblem::set_singularities(Singularities singularities, int cluster_count) {

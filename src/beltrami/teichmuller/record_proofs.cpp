@@ -30,10 +30,10 @@ void raise_to_proofs(ExtremalMap& result) {
     result.k = k_of(result.K);
     if (!(found < (1 - kErrorOfEstimate) * result.K)) return;
     if (result.termination == Termination::converged) result.termination = Termination::below_bound;
-    result.warnings.push_back({WarningKind::below_bound,
-                               "the iteration ended with K = " + std::to_string(found) +
-                                   ", but no map with these boundary values has less than " + std::to_string(result.K) +
-                                   ": the differentials at hand do not show the extremal map; a finer mesh would"});
+    result.warnings.push_back(
+        {WarningKind::below_bound, "the iteration ended with K = " + std::to_string(found) +
+                                       ", but no map with these conditions has less than " + std::to_string(result.K) +
+                                       ": the differentials at hand do not show the extremal map; a finer mesh would"});
 }
 
 void record_proofs(const Surface& source, const BoundaryCondition& boundary, const ExtremalOptions& options,

@@ -8,6 +8,7 @@
 #include <beltrami/starts/sliding_loops.h>
 #include <beltrami/teichmuller/hamilton_options.h>
 #include <beltrami/teichmuller/record.h>
+#include <beltrami/teichmuller/record_proofs.h>
 
 namespace beltrami {
 
@@ -222,6 +223,7 @@ void SlidingSolver::record_bounds(const FoundMap& found, const std::optional<Fou
         return measured;
     });
     record_sliding_bounds(best.integrals, best.found.step.k, result);
+    raise_to_proofs(result);
 }
 
 /// Steps of the boundary until it has settled, where no differential is admissible; whether it has.
