@@ -36,13 +36,16 @@ MeshInput unmended(LoadedMesh loaded) {
 void replace(MeshInput& input, Mesh mesh, const std::vector<int>& vertices, const std::vector<int>& faces,
              const std::vector<int>& numbers) {
     std::vector<std::vector<int>> rows;
+    rows.reserve(vertices.size());
     for (const int v : vertices) rows.push_back({v});
     input.attributes = carried(input.attributes, rows, faces);
     input.mesh = std::move(mesh);
     std::vector<int> of_file;
+    of_file.reserve(vertices.size());
     for (const int v : vertices) of_file.push_back(input.vertices[v]);
     input.vertices = std::move(of_file);
     std::vector<int> faces_of_file;
+    faces_of_file.reserve(faces.size());
     for (const int f : faces) faces_of_file.push_back(input.faces[f]);
     input.faces = std::move(faces_of_file);
     for (int& number : input.numbers) number = number < 0 ? -1 : numbers[number];

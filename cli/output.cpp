@@ -26,7 +26,7 @@ void FitOption::add_to(CLI::App& app) {
         ->capture_default_str();
 }
 
-Positions FitOption::fitted(Positions points) const {
+Positions FitOption::fitted(const Positions& points) const {
     return fit_ == "unit" ? fitted_to_unit_square(points) : points;
 }
 

@@ -15,7 +15,7 @@ class FitOption {
   public:
     void add_to(CLI::App& app);
     /// The points moved and scaled uniformly into the unit square, if that is wanted.
-    Positions fitted(Positions points) const;
+    Positions fitted(const Positions& points) const;
 
   private:
     std::string fit_ = "none";

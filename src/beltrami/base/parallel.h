@@ -16,14 +16,14 @@ void set_thread_count(int count);
 int thread_count();
 
 /// Items a chunk holds unless the caller says otherwise.
-inline constexpr int default_grain = 4096;
+inline constexpr int kDefaultGrain = 4096;
 
 /// Calls body(first, last) for consecutive chunks [first, last) that cover begin … end-1. The chunks depend on the
 /// range and on @p grain only, never on the number of threads. Nested calls, and calls while another thread of the
 /// program uses the pool, run serially. The exception of the earliest failing chunk is thrown again here.
 /// @param grain items per chunk (the last one may be smaller), at least 1; make it small where an item is costly
 /// @pre chunks write to different places
-void parallel_for(int begin, int end, const std::function<void(int, int)>& body, int grain = default_grain);
+void parallel_for(int begin, int end, const std::function<void(int, int)>& body, int grain = kDefaultGrain);
 
 /// Calls body(i) for i = 0 … n-1, each a chunk of its own: for few items that are costly. See parallel_for.
 inline void parallel_for_each(int n, const std::function<void(int)>& body) {
@@ -39,7 +39,7 @@ inline void parallel_for_each(int n, const std::function<void(int)>& body) {
 /// number of threads.
 /// @param body (int first, int last) → T, the sum over one chunk
 template <class T, class Body>
-T parallel_sum(int n, const T& zero, const Body& body, int grain = default_grain) {
+T parallel_sum(int n, const T& zero, const Body& body, int grain = kDefaultGrain) {
     grain = std::max(grain, 1);
     // A wrapper, because elements of std::vector<bool> must not be written concurrently.
     struct Part {

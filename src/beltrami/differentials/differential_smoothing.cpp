@@ -38,9 +38,9 @@ DifferentialSmoothing::DifferentialSmoothing(const Surface& source, const Chart&
         if (!chart.excluded[s])
             for (const int v : operators.stencil(s)) stars[v].push_back(s);
     std::vector<int> counts(operators.vertex_count);
-    std::vector<Fit> chunks(static_cast<std::size_t>(operators.vertex_count) / default_grain + 1);
+    std::vector<Fit> chunks(static_cast<std::size_t>(operators.vertex_count) / kDefaultGrain + 1);
     parallel_for(0, operators.vertex_count, [&](int begin, int end) {
-        Fit& fit = chunks[begin / default_grain];
+        Fit& fit = chunks[begin / kDefaultGrain];
         std::vector<int> wider;
         for (int v = begin; v < end; ++v) {
             const std::size_t before = fit.samples.size();
