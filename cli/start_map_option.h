@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include <beltrami/base/warning.h>
 #include <beltrami/mesh/mesh.h>
 
 #include "files.h"

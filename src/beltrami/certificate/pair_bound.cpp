@@ -119,9 +119,9 @@ class Lanczos {
         // Two rounds of the power iteration smooth it.
         Eigen::VectorXd v =
             source_.solve(pairing_.with_u(image_.solve(pairing_.with_v(source_.solve(pairing_.with_u(u))))));
-        push(std::move(v));
+        push(v);
     }
-    void push(Eigen::VectorXd v) {
+    void push(const Eigen::VectorXd& v) {
         Eigen::VectorXd applied = source_.apply(v);
         const double size = std::sqrt(std::max(0.0, v.dot(applied)));
         if (!(size > 0) || !std::isfinite(size)) return;
