@@ -191,7 +191,7 @@ void HamiltonIteration::run(HamiltonState& state, std::unique_ptr<DifferentialSp
         if (change > kTurnsBack && change > 0.8 * last_change)
             relaxation = std::max(0.5 * relaxation, kLeastRelaxation);
         last_change = change;
-        accelerated = options_.anderson_window > 0 && change < kAccelerateBelow && !astray && relaxation == 1;
+        accelerated = options_.anderson_window > 0 && change < kAccelerateBelow && !astray;
         if (accelerated) {
             const Eigen::VectorXd next = anderson.next(pack(state.direction, state.k), pack(step_.direction, step_.k));
             const Eigen::Index m = state.direction.size();
