@@ -10,6 +10,8 @@
 #include <beltrami/base/parallel.h>
 #include <beltrami/io/atomic_file.h>
 #include <beltrami/io/read_mesh.h>
+#include <beltrami/report/record_json.h>
+#include <beltrami/report/record_text.h>
 
 #include "words.h"
 

@@ -1,6 +1,7 @@
 #include "page.h"
 
 #include <beltrami/io/atomic_file.h>
+#include <beltrami/report/record_json.h>
 
 namespace beltrami::cli {
 

@@ -40,6 +40,7 @@
 #include <beltrami/io/read_mesh.h>
 #include <beltrami/io/target_file.h>
 #include <beltrami/io/write_mesh.h>
+#include <beltrami/locate/corner_weights.h>
 #include <beltrami/locate/map_evaluation.h>
 #include <beltrami/locate/planar_locator.h>
 #include <beltrami/mesh/cut.h>
@@ -61,6 +62,8 @@
 #include <beltrami/plane/target_curve.h>
 #include <beltrami/report/page.h>
 #include <beltrami/report/record.h>
+#include <beltrami/report/record_json.h>
+#include <beltrami/report/record_text.h>
 #include <beltrami/solve/beltrami_solver.h>
 #include <beltrami/solve/composition.h>
 #include <beltrami/solve/quasiconformal_map.h>

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <beltrami/differentials/zeros_and_poles.h>
+#include <beltrami/locate/corner_weights.h>
 #include <beltrami/operators/frames.h>
 
 namespace beltrami {
@@ -29,18 +30,6 @@ double mean_size(const Operators& operators, const Eigen::VectorXcd& phi) {
     return sum / operators.area();
 }
 
-/// One weight for each corner of the place's face, in the face's order.
-Json weights(const Mesh& mesh, const MeshPoint& place) {
-    Json result = Json::array();
-    for (const int v : mesh.faces[place.face]) {
-        double weight = 0;
-        for (int j = 0; j < 3; ++j)
-            if (place.vertices[j] == v) weight = place.barycentric[j];
-        result.push_back(weight);
-    }
-    return result;
-}
-
 }  // namespace
 
 std::string differential_json(const Surface& mapped, const Eigen::VectorXcd& mu, const Eigen::VectorXcd& phi,
@@ -49,7 +38,7 @@ std::string differential_json(const Surface& mapped, const Eigen::VectorXcd& mu,
     Json points = Json::array();
     for (const CriticalPoint& point : zeros_and_poles(mapped, differential))
         points.push_back({{"face", point.place.face},
-                          {"weights", weights(mapped.mesh, point.place)},
+                          {"weights", corner_weights(mapped.mesh, point.place)},
                           {"order", point.order},
                           {"on_boundary", point.on_boundary}});
     const Json file{{"schema", 1},

@@ -1,0 +1,316 @@
+#include <beltrami/report/record_json.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace beltrami {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Places of a warning that a record lists; there may be as many as there are faces.
+constexpr std::size_t kMostListed = 100;
+
+/// JSON has no NaN and no infinity: both are null.
+Json number(double value) {
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+void put(Json& object, const char* key, const std::optional<double>& value) {
+    if (value) object[key] = number(*value);
+}
+
+Json to_object(const MapRecord& map) {
+    Json object = Json::object();
+    put(object, "k", map.k);
+    put(object, "K", map.K);
+    put(object, "K_lower", map.K_lower);
+    put(object, "K_lower_proved", map.K_lower_proved);
+    put(object, "K_upper", map.K_upper);
+    put(object, "K_max", map.K_max);
+    if (!map.bounds.empty()) {
+        Json bounds = Json::array();
+        for (const Bound& bound : map.bounds)
+            bounds.push_back({{"kind", to_string(bound.kind)},
+                              {"K", number(bound.K)},
+                              {"of", to_string(bound.of)},
+                              {"rigorous", bound.rigorous}});
+        object["bounds"] = std::move(bounds);
+    }
+    object["mu"] = {{"mean", number(map.mean)},
+                    {"std", number(map.standard_deviation)},
+                    {"p99", number(map.p99)},
+                    {"max", number(map.max)}};
+    object["flipped"] = map.flipped;
+    object["degenerate"] = map.degenerate;
+    put(object, "boundary_residual", map.boundary_residual);
+    return object;
+}
+
+Json to_object(const SolveRecord& solve) {
+    Json object = {
+        {"iterations", solve.iterations}, {"termination", solve.termination}, {"factorizations", solve.factorizations}};
+    object["seconds"] = {{"total", number(solve.seconds_total)}};
+    put(object["seconds"], "harmonic", solve.seconds_harmonic);
+    if (solve.folds_removed) object["folds_removed"] = true;
+    if (!solve.history.empty()) {
+        Json k = Json::array(), change = Json::array(), largest = Json::array();
+        for (const Iteration& iteration : solve.history) {
+            k.push_back(number(iteration.k));
+            change.push_back(number(iteration.change));
+            largest.push_back(number(iteration.largest));
+        }
+        object["history"] = {{"k", std::move(k)}, {"change", std::move(change)}, {"largest_mu", std::move(largest)}};
+    }
+    return object;
+}
+
+Json to_object(const HomotopyClass& homotopy) {
+    Json holes = Json::array();
+    for (const HoleTurns& hole : homotopy.holes)
+        holes.push_back({{"loop", hole.loop},
+                         {"turns", hole.turns},
+                         {"angle", number(hole.angle)},
+                         {"outer_vertex", hole.outer_vertex},
+                         {"hole_vertex", hole.hole_vertex},
+                         {"meaningful", hole.meaningful}});
+    return {{"outer_loop", homotopy.outer_loop}, {"holes", std::move(holes)}};
+}
+
+Json to_object(const CornersRecord& corners) {
+    Json object = {{"count", corners.count}};
+    if (corners.sharpest)
+        object["sharpest"] = {{"vertex", corners.sharpest->vertex},
+                              {"K", number(corners.sharpest->safe_bound)},
+                              {"source_angle", number(corners.sharpest->source_angle)},
+                              {"image_angle", number(corners.sharpest->image_angle)}};
+    return object;
+}
+
+Json to_rows(const std::vector<LoopOnto>& loops) {
+    Json rows = Json::array();
+    for (const LoopOnto& loop : loops)
+        rows.push_back({{"loop", loop.loop},
+                        {"curve", loop.curve},
+                        {"area_ratio", number(loop.area_ratio)},
+                        {"parameters", loop.parameters}});
+    return rows;
+}
+
+Json to_object(const UniformizationRecord& uniformization) {
+    Json circles = Json::array();
+    for (const RoundHole& hole : uniformization.holes)
+        circles.push_back({{"loop", hole.loop},
+                           {"centre", {number(hole.centre.real()), number(hole.centre.imag())}},
+                           {"radius", number(hole.radius)}});
+    Json object = {{"outer_loop", uniformization.outer_loop},
+                   {"circles", std::move(circles)},
+                   {"moduli", uniformization.moduli},
+                   {"roundness", number(uniformization.roundness)}};
+    put(object, "module", uniformization.module);
+    return object;
+}
+
+Json to_object(const SphereRecord& sphere) {
+    Json object = {{"method", to_string(sphere.method)}, {"route", to_string(sphere.route)}, {"moved", sphere.moved}};
+    if (sphere.ideal_vertex) object["ideal_vertex"] = *sphere.ideal_vertex;
+    object["residual"] = number(sphere.residual);
+    object["layout_error"] = number(sphere.layout_error);
+    object["centre_distance"] = number(sphere.centre_distance);
+    object["unresolved"] = {{"faces", sphere.unresolved}, {"area", number(sphere.unresolved_area)}};
+    return object;
+}
+
+Json to_object(const FlowRecord& flow) {
+    Json object = {{"coefficient", flow.coefficient}};
+    if (flow.target) object["target"] = *flow.target;
+    object["error"] = {{"l2", number(flow.error.l2)},
+                       {"sup", number(flow.error.sup)},
+                       {"residual", number(flow.error.residual)},
+                       {"misfit", number(flow.error.misfit)}};
+    object["fits"] = flow.fits;
+    if (flow.target) object["loops"] = to_rows(flow.loops);
+    return object;
+}
+
+Json to_object(const CertificateRecord& certificate) {
+    return {{"wanted", number(certificate.wanted)},
+            {"proved", certificate.reached},
+            {"K_lower_proved", number(certificate.K_lower_proved)},
+            {"K_upper", number(certificate.K_upper)},
+            {"gap", number(certificate.gap)},
+            {"estimated_gap", number(certificate.estimated_gap)},
+            {"reached", certificate.reached},
+            {"refinements", certificate.refinements},
+            {"triangles", certificate.proof_triangles},
+            {"reason", certificate.reason}};
+}
+
+Json to_object(const OntoRecord& onto) {
+    Json object = {{"target", onto.target},
+                   {"space", to_string(onto.space)},
+                   {"dimension", onto.dimension},
+                   {"expected_dimension", onto.expected_dimension},
+                   {"gap", number(onto.gap)},
+                   {"K_upper", number(onto.K_upper)},
+                   {"rotation", number(onto.move.rotation)},
+                   {"centre", {number(onto.move.centre.real()), number(onto.move.centre.imag())}},
+                   {"led", onto.led},
+                   {"start_flips", onto.start_flips}};
+    Json path = Json::array();
+    for (const Waypoint& waypoint : onto.path)
+        path.push_back({waypoint.step, waypoint.loop, waypoint.position.real(), waypoint.position.imag()});
+    object["path"] = std::move(path);
+    object["loops"] = to_rows(onto.loops);
+    return object;
+}
+
+Json to_object(const GridRecord& grid) {
+    const GridQuality& quality = grid.quality;
+    return {{"carried_by", grid.carried_by},
+            {"lines", to_string(grid.lines)},
+            {"cells", grid.cells},
+            {"border", grid.trimmed ? "trimmed" : "stepped"},
+            {"pattern", grid.checker ? "checker" : "grid"},
+            {"vertices", grid.vertices},
+            {"quads", grid.quads},
+            {"triangles", grid.triangles},
+            {"whole_cells", grid.whole_cells},
+            {"trimmed_cells", grid.trimmed_cells},
+            {"omitted_cells", grid.omitted_cells},
+            {"folded", quality.folded},
+            {"area_part", number(grid.area_part)},
+            {"quality",
+             {{"min_angle", number(quality.min_angle)},
+              {"max_angle", number(quality.max_angle)},
+              {"mean_skew", number(quality.mean_skew)},
+              {"mean_aspect", number(quality.mean_aspect)},
+              {"max_aspect", number(quality.max_aspect)},
+              {"area_ratio", number(quality.area_ratio)}}}};
+}
+
+/// Kinds and places of warnings, in the order of their sentences.
+Json to_details(const Warnings& warnings) {
+    Json rows = Json::array();
+    for (const Warning& warning : warnings) {
+        Json row = {{"kind", to_string(warning.kind)}};
+        if (const std::vector<int>& indices = warning.where.indices; !indices.empty()) {
+            const auto listed = std::min(indices.size(), kMostListed);
+            row["of"] = to_string(warning.where.of);
+            row["count"] = indices.size();
+            row["indices"] = std::vector<int>(indices.begin(), indices.begin() + static_cast<std::ptrdiff_t>(listed));
+        }
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+void add_outline(const OutlineRecord& outline, Json& json) {
+    if (const auto& chart = outline.in_chart)
+        json["chart"] = {{"mu_mean", number(chart->chart_mean)},
+                         {"degree", chart->degree},
+                         {"map_mean", number(chart->mean)},
+                         {"map_std", number(chart->standard_deviation)}};
+    if (const auto& slack = outline.slack)
+        json["slack"] = {{"edges", number(slack->slack)},
+                         {"largest_move", number(slack->largest_move)},
+                         {"energy_before", number(slack->energy_before)},
+                         {"energy_after", number(slack->energy_after)},
+                         {"K_without", number(slack->K_without)}};
+    if (const auto& noise = outline.noise)
+        json["noise"] = {
+            {"edges", number(noise->slack)}, {"K", number(noise->K)}, {"energy_ratio", number(noise->energy_ratio)}};
+}
+
+Json to_rows(const Eigen::MatrixXd& matrix) {
+    Json rows = Json::array();
+    for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+        Json row = Json::array();
+        for (Eigen::Index j = 0; j < matrix.cols(); ++j) row.push_back(number(matrix(i, j)));
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+Json to_object(const DistancesRecord& distances) {
+    Json merges = Json::array();
+    for (const Merge& merge : distances.merges)
+        merges.push_back({{"clusters", {merge.a, merge.b}}, {"height", number(merge.height)}, {"size", merge.size}});
+    return {{"shapes", distances.shapes},
+            {"distance", to_rows(distances.matrix.distance)},
+            {"lower", to_rows(distances.matrix.lower)},
+            {"upper", to_rows(distances.matrix.upper)},
+            {"merges", std::move(merges)}};
+}
+
+}  // namespace
+
+std::string to_json(const Record& record) {
+    Json json;
+    json["schema"] = 1;
+    json["command"] = record.command;
+    Json& source = json["source"];
+    source["vertices"] = record.source.vertices;
+    source["faces"] = record.source.faces;
+    if (record.source.shape) {
+        source["components"] = record.source.shape->components;
+        Json lengths = Json::array(), loops = Json::array();
+        for (const SourceRecord::Loop& loop : record.source.shape->boundary_loops) {
+            lengths.push_back(number(loop.length));
+            loops.push_back(
+                {{"length", number(loop.length)}, {"vertices", loop.vertices}, {"first_vertex", loop.first_vertex}});
+        }
+        source["boundary_loops"] = std::move(lengths);
+        source["loops"] = std::move(loops);
+        source["genus"] = record.source.shape->genus;
+    }
+    if (record.map) json["map"] = to_object(*record.map);
+    if (record.solve) json["solve"] = to_object(*record.solve);
+    if (record.homotopy) json["homotopy"] = to_object(*record.homotopy);
+    if (record.corners) json["corners"] = to_object(*record.corners);
+    add_outline(record.outline, json);
+    if (record.split) json["split"] = {{"edges", record.split->edges}, {"added", record.split->added}};
+    if (record.certificate) json["certificate"] = to_object(*record.certificate);
+    if (record.least_maximum)
+        json["least_maximum"] = {{"power", record.least_maximum->power},
+                                 {"before", number(record.least_maximum->before)},
+                                 {"after", number(record.least_maximum->after)}};
+    if (record.onto) json["onto"] = to_object(*record.onto);
+    if (record.correspondence) {
+        Json loops = Json::array();
+        for (std::size_t l = 0; l < record.correspondence->partner.size(); ++l)
+            loops.push_back({static_cast<int>(l), record.correspondence->partner[l]});
+        json["correspondence"] = {{"target", record.correspondence->target},
+                                  {"pairs", record.correspondence->pairs},
+                                  {"loops", std::move(loops)}};
+    }
+    if (record.uniformization) json["uniformization"] = to_object(*record.uniformization);
+    if (record.sphere) json["sphere"] = to_object(*record.sphere);
+    if (record.flow) json["flow"] = to_object(*record.flow);
+    if (record.grid) json["grid"] = to_object(*record.grid);
+    if (record.distances) json["distances"] = to_object(*record.distances);
+    if (!record.comparison.empty()) {
+        Json methods = Json::array();
+        for (const MethodRecord& other : record.comparison)
+            methods.push_back(
+                {{"method", other.method}, {"map", to_object(other.map)}, {"solve", to_object(other.solve)}});
+        json["comparison"] = std::move(methods);
+    }
+    if (!record.components.empty()) {
+        Json parts = Json::array();
+        for (const ComponentRecord& part : record.components)
+            parts.push_back({{"first_face", part.first_face},
+                             {"faces", part.faces},
+                             {"map", to_object(part.map)},
+                             {"solve", to_object(part.solve)}});
+        json["components"] = std::move(parts);
+    }
+    json["warnings"] = sentences(record.warnings);
+    if (!record.warnings.empty()) json["warning_details"] = to_details(record.warnings);
+    // Names of files may hold any bytes; JSON holds UTF-8 only.
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace beltrami

@@ -1,0 +1,161 @@
+#include <beltrami/report/record_text.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <beltrami/report/text_table.h>
+
+namespace beltrami {
+
+namespace {
+
+/// Which holes are turned, in words.
+std::string sentence_of(const HomotopyClass& homotopy) {
+    std::string turned, unclear;
+    for (const HoleTurns& hole : homotopy.holes) {
+        if (!hole.meaningful) {
+            unclear += fmt::format("{}loop {}", unclear.empty() ? "" : ", ", hole.loop);
+        } else if (hole.turns != 0) {
+            turned += fmt::format("{}loop {} by {:+}", turned.empty() ? "" : ", ", hole.loop, hole.turns);
+        }
+    }
+    std::string text = "homotopy class: ";
+    text += turned.empty() ? "no hole is turned" : "turned is " + turned;
+    text += fmt::format(" against loop {}", homotopy.outer_loop);
+    if (!unclear.empty()) text += "; it cannot be told of " + unclear + ": faces there are flipped";
+    return text + "\n";
+}
+
+/// The circles and the moduli.
+std::string lines_of(const UniformizationRecord& uniformization) {
+    std::string text;
+    for (const RoundHole& hole : uniformization.holes)
+        text += fmt::format("loop {}: the circle around {:.8f}, {:.8f} of radius {:.8f}\n", hole.loop,
+                            hole.centre.real() + 0.0, hole.centre.imag() + 0.0, hole.radius);
+    if (uniformization.module) {
+        text += fmt::format("conformal module log(1/r)/2pi = {:.8f}\n", *uniformization.module);
+    } else if (!uniformization.moduli.empty()) {
+        text += "moduli:";
+        for (const double value : uniformization.moduli) text += fmt::format(" {:.8f}", value);
+        text += "\n";
+    } else {
+        text += "a disk: no moduli\n";
+    }
+    return text;
+}
+
+/// How the map to the sphere was found.
+std::string line_of(const SphereRecord& sphere) {
+    std::string text = "a sphere: no moduli; ";
+    switch (sphere.method) {
+        case SphereMethod::conformal_equivalence:
+            text += fmt::format("conformal equivalence, largest angle defect {:.1e}", sphere.residual);
+            break;
+        case SphereMethod::least_distortion:
+            text += "least mean distortion on this mesh";
+            break;
+        case SphereMethod::tutte:
+            text += "Tutte's map, not conformal";
+            break;
+    }
+    return text + "\n";
+}
+
+std::string cell(const std::optional<double>& value, int digits) {
+    if (!value) return "";
+    if (std::isnan(*value)) return "-";
+    return std::isinf(*value) ? "inf" : fmt::format("{:.{}f}", *value, digits);
+}
+
+}  // namespace
+
+std::string to_table(const Record& record, const std::string& method) {
+    if (!record.map) return {};
+    std::vector<std::vector<std::string>> rows{
+        {"method", "k", "K", "K_lower", "K_max", "mean", "std", "p99", "max", "flips", "iterations", "seconds"}};
+    const auto add = [&](const std::string& name, const MapRecord& map, const SolveRecord* solve) {
+        rows.push_back({name, cell(map.k, 4), cell(map.K, 4), cell(map.K_lower, 4), cell(map.K_max, 4),
+                        cell(map.mean, 4), cell(map.standard_deviation, 4), cell(map.p99, 4), cell(map.max, 4),
+                        std::to_string(map.flipped), solve ? std::to_string(solve->iterations) : "",
+                        solve ? fmt::format("{:.3f}", solve->seconds_total) : ""});
+    };
+    add(method, *record.map, record.solve ? &*record.solve : nullptr);
+    for (const MethodRecord& other : record.comparison) add(other.method, other.map, &other.solve);
+
+    return text_table(rows);
+}
+
+std::string to_remarks(const Record& record) {
+    std::string text;
+    if (record.homotopy) text += sentence_of(*record.homotopy);
+    if (record.solve && record.solve->folds_removed)
+        text += "the iteration left flipped faces; a fold-free solve opened them\n";
+    if (record.corners && record.corners->count > 0) {
+        const CornersRecord& corners = *record.corners;
+        text += fmt::format("source and boundary values have {} {}", corners.count,
+                            corners.count == 1 ? "corner" : "corners");
+        if (corners.sharpest)
+            text += fmt::format("; at vertex {} they force a stretch of about K = {:.3f} (estimate)",
+                                corners.sharpest->vertex, corners.sharpest->safe_bound);
+        text += "\n";
+    }
+    if (const auto& slack = record.outline.slack)
+        text += fmt::format(
+            "boundary points have moved by at most {:.2f} edges along the target (slack {:g}); as they were given K "
+            "would be about {:.2f}\n",
+            slack->largest_move, slack->slack, slack->K_without);
+    if (const auto& noise = record.outline.noise; noise && record.map && record.map->K)
+        text += fmt::format(
+            "the outline's noise costs: moving points by at most half an edge (slack {:g}) would give K about {:.2f} "
+            "instead of {:.2f}\n",
+            noise->slack, noise->K, *record.map->K);
+    if (record.certificate)
+        text += fmt::format("certificate of {:.3g} %: {} ({} {})\n", 100 * record.certificate->wanted,
+                            record.certificate->reason, record.certificate->refinements,
+                            record.certificate->refinements == 1 ? "refinement" : "refinements");
+    if (record.onto) {
+        const OntoRecord& onto = *record.onto;
+        text += "loops:";
+        for (const LoopOnto& loop : onto.loops) text += fmt::format(" {}:{}", loop.loop, loop.curve);
+        text += fmt::format("; differentials: dimension {} (theory {})", onto.dimension, onto.expected_dimension);
+        if (onto.dimension > 0)
+            text += fmt::format("; bracket of K*: {:.5f} to {:.5f} (estimates)", record.map ? *record.map->K_lower : 1,
+                                onto.K_upper);
+        text += "\n";
+    }
+    if (record.uniformization) text += lines_of(*record.uniformization);
+    if (record.sphere) text += line_of(*record.sphere);
+    if (record.flow)
+        text += fmt::format(
+            "coefficient: off by {:.3g} (root mean square), {:.3g} at most; relative residual {:.3g}, of it {:.3g} no "
+            "error of the mesh\n",
+            record.flow->error.l2, record.flow->error.sup, record.flow->error.residual, record.flow->error.misfit);
+    if (record.least_maximum)
+        text += fmt::format("largest |mu| of a face: {:.4f} before, {:.4f} after\n", record.least_maximum->before,
+                            record.least_maximum->after);
+    return text;
+}
+
+std::string to_sentence(const Record& record) {
+    if (!record.map || !record.map->K_lower) return {};
+    const MapRecord& map = *record.map;
+    const bool rigorous = std::any_of(map.bounds.begin(), map.bounds.end(), [&](const Bound& bound) {
+        return bound.proves_from_below() && bound.K == *map.K_lower;
+    });
+    std::string proved = rigorous ? "proved up to rounding" : "estimate";
+    if (!rigorous && map.K_lower_proved && *map.K_lower_proved > 1)
+        proved += fmt::format("; proved: K = {:.3f}", std::floor(*map.K_lower_proved * 1e3) / 1e3);
+    // Rounded so that what is said stays true.
+    const char* prescribed = record.onto       ? "loops and marks in this homotopy class"
+                             : record.homotopy ? "boundary values in this homotopy class"
+                                               : "boundary values";
+    return fmt::format(
+        "no map with these {} stretches less than K = {:.3f} ({})\n"
+        "this one: about {:.3f}, at most {:.3f} on 99 % of the area\n",
+        prescribed, std::floor(*map.K_lower * 1e3) / 1e3, proved, dilatation(map.mean),
+        std::ceil(dilatation(map.p99) * 1e3) / 1e3);
+}
+
+}  // namespace beltrami
