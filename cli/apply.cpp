@@ -5,6 +5,7 @@
 #include <beltrami/base/error.h>
 #include <beltrami/io/atomic_file.h>
 #include <beltrami/io/number_lists.h>
+#include <beltrami/locate/corner_weights.h>
 #include <beltrami/locate/map_evaluation.h>
 #include <beltrami/operators/distortion.h>
 
@@ -178,12 +179,7 @@ class Apply final : public Command {
 
     static std::string weights(const Mesh& mesh, const MeshPoint& place) {
         std::string text = std::to_string(place.face);
-        for (const int v : mesh.faces[place.face]) {
-            double weight = 0;
-            for (int j = 0; j < 3; ++j)
-                if (place.vertices[j] == v) weight = place.barycentric[j];
-            text += fmt::format(" {}", weight);
-        }
+        for (const double weight : corner_weights(mesh, place)) text += fmt::format(" {}", weight);
         return text + "\n";
     }
 

@@ -5,6 +5,7 @@
 #include <beltrami/base/error.h>
 #include <beltrami/baselines/baseline.h>
 #include <beltrami/baselines/t_map_scheme.h>
+#include <beltrami/charts/shape.h>
 #include <beltrami/starts/target_model.h>
 #include <beltrami/teichmuller/certify.h>
 #include <beltrami/teichmuller/extremal_between.h>
@@ -165,13 +166,15 @@ const std::vector<std::string>& sliding_baseline_names() {
 namespace {
 
 /// Ng, Gu & Lui's scheme, from the start and with the pairs of the extremal map.
-void run_t_map(const Surface& source, const TargetDomain& target, const Correspondence& wanted,
+void run_t_map(const Surface& source, const TargetDomain& target, const Correspondence& wanted, const Shape& shape,
                std::vector<PageMap>& pages, Record& record) {
     const double start = seconds();
     MethodRecord line;
     line.method = "t-map";
     try {
-        TMapSchemeResult result = t_map_scheme(source, target, {}, wanted);
+        FlowStartOptions options;
+        options.shapes = {&shape};
+        TMapSchemeResult result = t_map_scheme(source, target, {}, wanted, options);
         line.map = map_record(result.distortion);
         line.solve.iterations = result.solves;
         line.solve.termination = to_string(result.termination);
@@ -193,6 +196,8 @@ MethodResult run_onto(const Surface& source, const OntoTarget& target, const Con
                       ExtremalOptions options, double start, bool show, Record& record,
                       const std::vector<std::string>& compare) {
     MethodResult done;
+    const Shape shape(source);
+    options.shapes = {&shape};
     ExtremalMap result = [&] {
         Progress progress(show);
         options.progress = [&](int iteration, double k) {
@@ -222,7 +227,7 @@ MethodResult run_onto(const Surface& source, const OntoTarget& target, const Con
                                  : constraints.correspondence;
         own.loops.clear();
         for (const LoopOnto& loop : result.loops) own.loops.push_back({loop.loop, loop.curve});
-        run_t_map(used, circles ? circle_target(*circles) : *target.domain(), own, done.pages, record);
+        run_t_map(used, circles ? circle_target(*circles) : *target.domain(), own, shape, done.pages, record);
     }
     take_map(std::move(result), done);
     return done;

@@ -38,4 +38,9 @@ const Shape* shape_of(const Surface& surface, const std::vector<const Shape*>& s
     return nullptr;
 }
 
+CircleDomainChart circle_domain_of(const Surface& surface, int outer_loop, const std::vector<const Shape*>& shapes) {
+    const Shape* shape = shape_of(surface, shapes);
+    return shape ? shape->circles(outer_loop) : circle_domain_chart(surface, outer_loop);
+}
+
 }  // namespace beltrami

@@ -50,4 +50,8 @@ class Shape {
 /// That of some shapes whose surface this one is; null if there is none.
 const Shape* shape_of(const Surface& surface, const std::vector<const Shape*>& shapes);
 
+/// Its circle domain: the one that its shape among these keeps, else computed for the call.
+/// @throw Error as circle_domain_chart
+CircleDomainChart circle_domain_of(const Surface& surface, int outer_loop, const std::vector<const Shape*>& shapes);
+
 }  // namespace beltrami

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <beltrami/base/disjoint_sets.h>
+#include <beltrami/plane/polygon.h>
 
 namespace beltrami {
 
@@ -304,7 +305,6 @@ class Search {
 
 std::array<double, 3> barycentric(const std::array<Complex, 3>& triangle, Complex point) {
     const auto& [a, b, c] = triangle;
-    const auto cross = [](Complex p, Complex q) { return std::imag(std::conj(p) * q); };
     const double area = cross(b - a, c - a), u = cross(b - point, c - point) / area,
                  v = cross(c - point, a - point) / area;
     return {u, v, 1 - u - v};

@@ -2,14 +2,14 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <sstream>
 
 #include <beltrami/base/error.h>
-#include <beltrami/base/parallel.h>
 #include <beltrami/differentials/dimension.h>
+#include <beltrami/differentials/gauss_rule.h>
+#include <beltrami/differentials/pulled_back.h>
 #include <beltrami/linear/decomposition.h>
 #include <beltrami/linear/dense.h>
 
@@ -38,20 +38,6 @@ constexpr double kShift = 1e-13;
 /// Powers are added beyond those that the fall of the residual so far asks for: as part of them, and in any case.
 constexpr double kMorePowers = 1.1;
 constexpr int kLeastMorePowers = 4;
-constexpr int kPointsPerChunk = 256;
-
-/// Gauss-Legendre rule with 8 points on [0, 1].
-struct Node {
-    double place, weight;
-};
-constexpr std::array<Node, 8> kGauss{{{0.01985507175123188416, 0.05061426814518812958},
-                                      {0.10166676129318663020, 0.11119051722668723527},
-                                      {0.23723379504183550709, 0.15685332293894364367},
-                                      {0.40828267875217509753, 0.18134189168918099148},
-                                      {0.59171732124782490247, 0.18134189168918099148},
-                                      {0.76276620495816449291, 0.15685332293894364367},
-                                      {0.89833323870681336980, 0.11119051722668723527},
-                                      {0.98014492824876811584, 0.05061426814518812958}}};
 
 /// Boundary points with the square of the tangent, −exp(2iθ), and the root of their weight in the mean square.
 struct BoundaryPoints {
@@ -122,7 +108,7 @@ BoundaryPoints boundary_points(const RoundDomain& domain, int degree, bool shift
             }
             for (std::size_t e = 0; e + 1 < edges.size(); ++e) {
                 const double length = edges[e + 1] - edges[e];
-                for (const Node& node : kGauss)
+                for (const GaussNode& node : kGauss)
                     add(circle, marks, edges[e] + node.place * length, node.weight * length);
             }
         }
@@ -345,18 +331,9 @@ bool LaurentSpace::find(int degree, int dimension) {
 }
 
 Eigen::MatrixXcd LaurentSpace::generators(const ChartPoints& points) const {
-    Eigen::MatrixXcd result(points.positions.size(), size());
-    parallel_for(
-        0, static_cast<int>(points.positions.size()),
-        [&](int begin, int end) {
-            const int count = end - begin;
-            const Eigen::VectorXcd squares = points.derivatives.segment(begin, count).array().square();
-            result.middleRows(begin, count) =
-                squares.asDiagonal() *
-                Eigen::MatrixXcd(values(powers_, points.positions.segment(begin, count)) * coefficients_);
-        },
-        kPointsPerChunk);
-    return result;
+    return pulled_back(points, size(), [&](const Eigen::VectorXcd& places) {
+        return Eigen::MatrixXcd(values(powers_, places) * coefficients_);
+    });
 }
 
 }  // namespace beltrami

@@ -1,10 +1,10 @@
 #include <beltrami/differentials/mixed_domain.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
+#include <beltrami/differentials/gauss_rule.h>
 #include <beltrami/plane/circle_fit.h>
 
 namespace beltrami {
@@ -14,18 +14,6 @@ namespace {
 constexpr double kTurn = 2 * std::numbers::pi;
 constexpr Complex kI(0, 1);
 
-/// Gauss-Legendre rule with 8 points on [0, 1].
-struct Node {
-    double place, weight;
-};
-constexpr std::array<Node, 8> kGauss{{{0.01985507175123188416, 0.05061426814518812958},
-                                      {0.10166676129318663020, 0.11119051722668723527},
-                                      {0.23723379504183550709, 0.15685332293894364367},
-                                      {0.40828267875217509753, 0.18134189168918099148},
-                                      {0.59171732124782490247, 0.18134189168918099148},
-                                      {0.76276620495816449291, 0.15685332293894364367},
-                                      {0.89833323870681336980, 0.11119051722668723527},
-                                      {0.98014492824876811584, 0.05061426814518812958}}};
 /// Length of the panel next to a singular end, as part of the part; each further one reaches this much farther.
 constexpr double kFinest = 1e-5, kRatio = 1.8, kShiftedRatio = 1.65;
 /// Radians of a power's turn along a panel.
@@ -239,7 +227,7 @@ BoundarySamples boundary_samples(const MixedDomain& domain, int degree, bool shi
                        std::min(0.5, (shifted ? kShiftedTurn : kTurnOfPanel) / ((degree + kMorePoints) * angle)),
                        shifted ? kShiftedRatio : kRatio);
             for (std::size_t e = 0; e + 1 < ends.size(); ++e)
-                for (const Node& node : kGauss)
+                for (const GaussNode& node : kGauss)
                     add(ends[e] + node.place * (ends[e + 1] - ends[e]), node.weight * (ends[e + 1] - ends[e]));
         }
     }

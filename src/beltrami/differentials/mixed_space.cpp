@@ -5,8 +5,8 @@
 #include <utility>
 
 #include <beltrami/base/error.h>
-#include <beltrami/base/parallel.h>
 #include <beltrami/differentials/orthonormal_columns.h>
+#include <beltrami/differentials/pulled_back.h>
 #include <beltrami/linear/decomposition.h>
 #include <beltrami/linear/dense.h>
 
@@ -31,7 +31,6 @@ constexpr int kMorePowers = 12, kMostPowers = 120;
 constexpr double kNew = 0.3;
 /// Mirror images of poles so many radii away or further are left to the powers.
 constexpr double kFarImage = 3;
-constexpr int kPointsPerChunk = 256;
 
 }  // namespace
 
@@ -284,18 +283,9 @@ void MixedSpace::measure() {
 }
 
 Eigen::MatrixXcd MixedSpace::generators(const ChartPoints& points) const {
-    Eigen::MatrixXcd result(points.positions.size(), size());
-    parallel_for(
-        0, static_cast<int>(points.positions.size()),
-        [&](int begin, int end) {
-            const int count = end - begin;
-            const Eigen::VectorXcd squares = points.derivatives.segment(begin, count).array().square();
-            result.middleRows(begin, count) =
-                squares.asDiagonal() *
-                Eigen::MatrixXcd(values(functions_, points.positions.segment(begin, count)) * coefficients_);
-        },
-        kPointsPerChunk);
-    return result;
+    return pulled_back(points, size(), [&](const Eigen::VectorXcd& places) {
+        return Eigen::MatrixXcd(values(functions_, places) * coefficients_);
+    });
 }
 
 std::unique_ptr<DifferentialSpace> MixedSpace::refined() const {

@@ -1,13 +1,12 @@
 #include <beltrami/differentials/slit_space.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
-#include <beltrami/base/parallel.h>
 #include <beltrami/differentials/orthonormal_columns.h>
+#include <beltrami/differentials/pulled_back.h>
 #include <beltrami/plane/circle_fit.h>
 
 namespace beltrami {
@@ -22,7 +21,6 @@ constexpr double kDependent = 1e-7;
 constexpr int kLeastPower = -1, kLargestTail = 1;
 constexpr int kAbsorbers = 3;
 constexpr int kPointsOfCircle = 12;
-constexpr int kPointsPerChunk = 256;
 
 bool changes(const MixedDomain::Loop& loop) {
     return !loop.transitions.empty();
@@ -232,17 +230,8 @@ void SlitSpace::raise(int degree) {
 }
 
 Eigen::MatrixXcd SlitSpace::generators(const ChartPoints& points) const {
-    Eigen::MatrixXcd result(points.positions.size(), static_cast<Eigen::Index>(functions_.size()));
-    parallel_for(
-        0, static_cast<int>(points.positions.size()),
-        [&](int begin, int end) {
-            const int count = end - begin;
-            const Eigen::VectorXcd squares = points.derivatives.segment(begin, count).array().square();
-            result.middleRows(begin, count) =
-                squares.asDiagonal() * values(functions_, points.positions.segment(begin, count));
-        },
-        kPointsPerChunk);
-    return result;
+    return pulled_back(points, static_cast<Eigen::Index>(functions_.size()),
+                       [&](const Eigen::VectorXcd& places) { return values(functions_, places); });
 }
 
 std::unique_ptr<DifferentialSpace> SlitSpace::refined() const {

@@ -12,6 +12,7 @@
 #include <beltrami/differentials/table_zeros.h>
 #include <beltrami/mesh/planar.h>
 #include <beltrami/mesh/quad_split.h>
+#include <beltrami/plane/polygon.h>
 
 namespace beltrami {
 
@@ -21,10 +22,6 @@ namespace {
 constexpr double kRim = 0.25;
 /// Points that are evaluated at once.
 constexpr int kPointsPerChunk = 1024;
-
-double cross(Complex a, Complex b) {
-    return std::imag(std::conj(a) * b);
-}
 
 /// A triangle of a face, in the order in which MeshPoint names its corners.
 struct FaceTriangle {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include <beltrami/base/error.h>
+#include <beltrami/charts/shape.h>
 #include <beltrami/constraints/constraints.h>
 #include <beltrami/starts/given_start.h>
 
@@ -18,7 +19,7 @@ SlidingStart flow_start(const Surface& source, const TargetDomain& target, const
     if (!options.start_turns.empty() && options.start_turns.size() != loops)
         throw Error(Cause::bad_option, "start turns are given for " + std::to_string(options.start_turns.size()) +
                                            " boundary loops, the source has " + std::to_string(loops));
-    const CircleDomainChart chart = circle_domain_chart(source, wanted.outer_loop);
+    const CircleDomainChart chart = circle_domain_of(source, wanted.outer_loop, options.shapes);
     const auto model = target_model(target, edge_length_for(source, target, options.target_edge_length));
     SlidingStart start = sliding_start(source, chart, *model, wanted, options.start_turns);
     start.factorizations += chart.factorizations + model->factorizations();

@@ -5,9 +5,12 @@
 
 namespace beltrami BELTRAMI_PUBLIC {
 
+class Shape;
+
 struct FlowStartOptions {
     double target_edge_length = 0;  ///< of the mesh of a target that is not round; 0: that of the source, relatively
-    std::vector<double> start_turns = {};  ///< see sliding_start
+    std::vector<double> start_turns = {};   ///< see sliding_start
+    std::vector<const Shape*> shapes = {};  ///< surfaces whose charts are kept; the source is asked for its own
 };
 
 /// A start for flows onto a domain, as extremal_map finds it: the loops matched and the harmonic map, or one led along

@@ -5,6 +5,7 @@
 
 #include <beltrami/base/error.h>
 #include <beltrami/base/parallel.h>
+#include <beltrami/mesh/quad_split.h>
 
 namespace beltrami {
 
@@ -22,10 +23,6 @@ Positions images_of_corners(const Mesh& source, const Eigen::VectorXcd& map) {
         corners.row(c) << image.real(), image.imag();
     }
     return corners;
-}
-
-double cross(Complex a, Complex b) {
-    return std::imag(std::conj(a) * b);
 }
 
 }  // namespace
@@ -88,11 +85,7 @@ void MapEvaluation::divide() {
             continue;
         }
         const auto at = [&](int j) { return images_[image_of_corner_[source_.faces.first_corner(f) + j]]; };
-        const Complex diagonal = at(2) - at(0);
-        const bool first = cross(diagonal, at(1) - at(0)) * cross(diagonal, at(3) - at(0)) < 0;
-        const int shift = first ? 0 : 1;
-        add(f, {shift, shift + 1, shift + 2});
-        add(f, {shift + 2, (shift + 3) % 4, shift});
+        for (const std::array<int, 3>& triangle : split_inside({at(0), at(1), at(2), at(3)})) add(f, triangle);
     }
     in_image_.emplace(image);
     on_source_.emplace(source_.positions, triangles_);

@@ -5,14 +5,12 @@
 #include <limits>
 
 #include <beltrami/base/error.h>
+#include <beltrami/mesh/quad_split.h>
+#include <beltrami/plane/polygon.h>
 
 namespace beltrami {
 
 namespace {
-
-double cross(Complex a, Complex b) {
-    return std::imag(std::conj(a) * b);
-}
 
 /// Barycentric coordinates this far below 0 still count as inside: rounding must not open gaps between faces.
 constexpr double kSlack = 1e-12;
@@ -38,12 +36,8 @@ PlanarLocator::PlanarLocator(const Mesh& mesh) {
         if (v.size() == 3) {
             triangles_.push_back({f, {v[0], v[1], v[2]}});
         } else {
-            // The diagonal that lies inside the quad, also where a corner is reflex.
-            const Complex d = points_[v[2]] - points_[v[0]];
-            const bool first = cross(d, points_[v[1]] - points_[v[0]]) * cross(d, points_[v[3]] - points_[v[0]]) < 0;
-            const int shift = first ? 0 : 1;
-            triangles_.push_back({f, {v[shift], v[shift + 1], v[shift + 2]}});
-            triangles_.push_back({f, {v[shift + 2], v[(shift + 3) % 4], v[shift]}});
+            for (const auto& [a, b, c] : split_inside({points_[v[0]], points_[v[1]], points_[v[2]], points_[v[3]]}))
+                triangles_.push_back({f, {v[a], v[b], v[c]}});
         }
     }
 

@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include <beltrami/plane/polygon.h>
+
 namespace beltrami {
 
 std::array<std::array<int, 3>, 2> split_quad(const std::array<Eigen::Vector3d, 4>& corners) {
@@ -19,6 +21,13 @@ std::array<std::array<int, 3>, 2> split_quad(const std::array<Eigen::Vector3d, 4
     const bool first = first_folds != second_folds ? second_folds : lengths[0] <= lengths[1];
     if (first) return {{{0, 1, 2}, {0, 2, 3}}};
     return {{{1, 2, 3}, {1, 3, 0}}};
+}
+
+std::array<std::array<int, 3>, 2> split_inside(const std::array<Complex, 4>& corners) {
+    const Complex diagonal = corners[2] - corners[0];
+    if (cross(diagonal, corners[1] - corners[0]) * cross(diagonal, corners[3] - corners[0]) < 0)
+        return {{{0, 1, 2}, {2, 3, 0}}};
+    return {{{1, 2, 3}, {3, 0, 1}}};
 }
 
 }  // namespace beltrami

@@ -3,11 +3,13 @@
 #include <string>
 
 #include <beltrami/base/error.h>
+#include <beltrami/charts/shape.h>
 
 namespace beltrami {
 
 PrescribedTarget prescribed_target(const Surface& source, const Surface& target,
-                                   std::span<const std::array<int, 2>> pairs, int outer_loop) {
+                                   std::span<const std::array<int, 2>> pairs, int outer_loop,
+                                   const std::vector<const Shape*>& shapes) {
     require_genus_zero(source);
     require_genus_zero(target);
     const int loops = static_cast<int>(source.topology.boundary_loops.size());
@@ -16,7 +18,7 @@ PrescribedTarget prescribed_target(const Surface& source, const Surface& target,
                                            std::to_string(loops));
     PrescribedTarget result;
     result.correspondence = boundary_correspondence(source, target, pairs);
-    result.circles = circle_domain_chart(target, result.correspondence.partner[outer_loop]);
+    result.circles = circle_domain_of(target, result.correspondence.partner[outer_loop], shapes);
     result.boundary = boundary_on_circles(source, target, result.circles, result.correspondence);
     return result;
 }
@@ -37,7 +39,7 @@ ExtremalMapBetween extremal_map_between(const Surface& source, const Surface& ta
                                         const ExtremalOptions& options) {
     options.validate();
     ExtremalMapBetween result;
-    result.target = prescribed_target(source, target, pairs, wanted.outer_loop);
+    result.target = prescribed_target(source, target, pairs, wanted.outer_loop, options.shapes);
     Constraints constraints(result.target.boundary);
     constraints.correspondence = wanted;
     result.plane = extremal_map(source, constraints, options);

@@ -19,10 +19,12 @@ struct PrescribedTarget {
 
 /// @param pairs      see boundary_correspondence
 /// @param outer_loop of the source: its partner goes to the unit circle
+/// @param shapes     surfaces whose charts are kept; the target is asked for its own
 /// @throw Error bad_option if there is no such loop; bad_mesh unless the target has one component of genus 0 with
 ///        boundary; bad_boundary, not_solved
 PrescribedTarget prescribed_target(const Surface& source, const Surface& target,
-                                   std::span<const std::array<int, 2>> pairs, int outer_loop = 0);
+                                   std::span<const std::array<int, 2>> pairs, int outer_loop = 0,
+                                   const std::vector<const Shape*>& shapes = {});
 
 /// Places on the target of a map to its circle domain: those of boundary vertices of the source are the ones that were
 /// prescribed, the others are located.

@@ -59,9 +59,7 @@ OntoProblem::OntoProblem(const Surface& source, const Constraints& constraints, 
 void OntoProblem::make_target(const Surface& source, const Constraints& constraints, const TargetModel* given) {
     if (const SurfaceTarget* onto = constraints.surface()) {
         target_surface_ = onto->surface;
-        const Shape* shape = shape_of(*onto->surface, options_.shapes);
-        target_circles_ =
-            shape ? shape->circles(onto->outer_loop) : circle_domain_chart(*onto->surface, onto->outer_loop);
+        target_circles_ = circle_domain_of(*onto->surface, onto->outer_loop, options_.shapes);
         wanted_ = correspondence_on_circles(wanted_, *onto->surface, *target_circles_);
     }
     if (!given) {

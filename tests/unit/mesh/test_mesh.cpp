@@ -6,6 +6,8 @@
 #include <beltrami/mesh/mesh.h>
 #include <beltrami/mesh/planar.h>
 
+#include "support/cause_of.h"
+
 namespace beltrami {
 namespace {
 
@@ -69,28 +71,19 @@ TEST(Mesh, MatricesOfTrianglesAndQuadsComeAndGo) {
 }
 
 TEST(Mesh, MatricesOfOtherShapesAreRefused) {
-    const auto cause_of = [](const auto& action) {
-        try {
-            action();
-        } catch (const Error& error) {
-            return error.cause();
-        }
-        ADD_FAILURE() << "nothing was thrown";
-        return Cause::cancelled;
-    };
     const Eigen::MatrixXd V = Eigen::MatrixXd::Zero(5, 3);
     const Eigen::MatrixXi F = Eigen::MatrixXi::Zero(2, 3);
     for (const int columns : {0, 1, 4}) {
-        EXPECT_EQ(cause_of([&] { mesh_from(Eigen::MatrixXd::Zero(5, columns), F); }), Cause::bad_mesh);
+        EXPECT_EQ(test::cause_of([&] { mesh_from(Eigen::MatrixXd::Zero(5, columns), F); }), Cause::bad_mesh);
     }
     for (const int columns : {0, 2, 5}) {
-        EXPECT_EQ(cause_of([&] { mesh_from(V, Eigen::MatrixXi::Zero(2, columns)); }), Cause::bad_mesh);
+        EXPECT_EQ(test::cause_of([&] { mesh_from(V, Eigen::MatrixXi::Zero(2, columns)); }), Cause::bad_mesh);
     }
     Mesh pentagon;
     pentagon.positions = V;
     pentagon.faces.add({0, 1, 2});
     pentagon.faces.add({0, 1, 2, 3, 4});
-    EXPECT_EQ(cause_of([&] { face_matrix(pentagon); }), Cause::bad_mesh);
+    EXPECT_EQ(test::cause_of([&] { face_matrix(pentagon); }), Cause::bad_mesh);
 }
 
 TEST(Mesh, CornerPositionsFollowTheFaces) {

@@ -48,5 +48,13 @@ TEST(QuadSplit, OfAPointIsSomeSplit) {
     EXPECT_EQ(split_quad(plane(1, 1, 1, 1, 1, 1, 1, 1)), kFirst);
 }
 
+TEST(QuadSplit, InThePlaneAlongTheDiagonalInside) {
+    const Halves first = {{{0, 1, 2}, {2, 3, 0}}}, second = {{{1, 2, 3}, {3, 0, 1}}};
+    EXPECT_EQ(split_inside({Complex(0, 0), {1, 0}, {2, 1}, {1, 1}}), first) << "both do, however long they are";
+    const std::array<Complex, 4> dart{Complex(0, 0), {1, -0.3}, {0.4, 0}, {1, 0.3}};
+    EXPECT_EQ(split_inside(dart), first);
+    EXPECT_EQ(split_inside({dart[3], dart[0], dart[1], dart[2]}), second);
+}
+
 }  // namespace
 }  // namespace beltrami

@@ -12,6 +12,8 @@
 #include <beltrami/report/drawing.h>
 #include <beltrami/report/page.h>
 
+#include "support/cause_of.h"
+
 namespace beltrami {
 namespace {
 
@@ -239,14 +241,7 @@ TEST(Page, LargeMeshIsCoarsenedForDrawingOnly) {
 
 TEST(Page, RefusesWhatDoesNotFit) {
     const Mesh mesh = bumpy_square(3);
-    const auto cause_of = [](const PageContent& content) {
-        try {
-            render_page(content);
-        } catch (const Error& error) {
-            return error.cause();
-        }
-        return Cause::cancelled;
-    };
+    const auto cause_of = [](const PageContent& content) { return test::cause_of([&] { render_page(content); }); };
     EXPECT_EQ(cause_of(content_of(mesh, {})), Cause::bad_option);
     PageMap few = flat_map(mesh);
     few.abs_mu.conservativeResize(3);

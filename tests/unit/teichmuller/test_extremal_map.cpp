@@ -11,6 +11,7 @@
 #include <beltrami/solve/beltrami_solver.h>
 #include <beltrami/teichmuller/extremal_map.h>
 
+#include "support/cause_of.h"
 #include "support/meshes.h"
 
 namespace beltrami {
@@ -169,32 +170,25 @@ TEST(ExtremalMap, ACustomMetricIsTheSourceThatCounts) {
 }
 
 TEST(ExtremalMap, WhatItCannotDoIsAnErrorWithItsCause) {
-    const auto cause_of = [](const auto& attempt) {
-        try {
-            attempt();
-        } catch (const Error& error) {
-            return error.cause();
-        }
-        return Cause::unreadable;
-    };
     const Surface surface(disk(disk_rings_for_triangles(200)));
     BoundaryCondition part = test::boundary_values(surface, [](Complex z) { return z; });
     BoundaryCondition inside = part;
     part.vertices.pop_back();
     part.images.pop_back();
-    EXPECT_EQ(cause_of([&] { extremal_map(surface, part); }), Cause::bad_boundary);
-    EXPECT_EQ(cause_of([&] { extremal_map(icosahedral_sphere(1), part); }), Cause::bad_mesh);
+    EXPECT_EQ(test::cause_of([&] { extremal_map(surface, part); }), Cause::bad_boundary);
+    EXPECT_EQ(test::cause_of([&] { extremal_map(icosahedral_sphere(1), part); }), Cause::bad_mesh);
     int inner = 0;
     while (surface.topology.on_boundary[inner]) ++inner;
     inside.pin(inner, 5.0);
-    EXPECT_EQ(cause_of([&] { extremal_map(surface, inside); }), Cause::bad_boundary);
+    EXPECT_EQ(test::cause_of([&] { extremal_map(surface, inside); }), Cause::bad_boundary);
     ExtremalOptions options;
     options.tolerance = -1;
-    EXPECT_EQ(cause_of([&] { extremal_map(surface, inside, options); }), Cause::bad_option);
+    EXPECT_EQ(test::cause_of([&] { extremal_map(surface, inside, options); }), Cause::bad_option);
     options = {};
     options.progress = [](int, double) { return false; };
-    EXPECT_EQ(cause_of([&] { extremal_map(surface, test::boundary_values(surface, test::three_lobes), options); }),
-              Cause::cancelled);
+    EXPECT_EQ(
+        test::cause_of([&] { extremal_map(surface, test::boundary_values(surface, test::three_lobes), options); }),
+        Cause::cancelled);
 }
 
 TEST(ExtremalMap, BoundaryValuesThatNoMapHasAreRefused) {

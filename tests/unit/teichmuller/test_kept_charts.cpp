@@ -3,7 +3,9 @@
 #include <beltrami/base/effort.h>
 #include <beltrami/charts/boundary_values.h>
 #include <beltrami/charts/shape.h>
+#include <beltrami/flow/flow_start.h>
 #include <beltrami/meshing/planar_domains.h>
+#include <beltrami/teichmuller/extremal_between.h>
 #include <beltrami/teichmuller/extremal_map.h>
 
 #include "support/meshes.h"
@@ -46,6 +48,44 @@ TEST(KeptCharts, ServeBoundaryValuesAndMap) {
     EXPECT_EQ(charts_made(surface, &shape, kept), 0);
     EXPECT_NEAR(kept.k, alone.k, 1e-9);
     EXPECT_LT((kept.map - alone.map).cwiseAbs().maxCoeff(), 1e-6);
+}
+
+Mesh bent_ring() {
+    DomainOptions options;
+    options.edge_length = 0.15;
+    return bent(circle_domain({}, std::vector<Circle>{{{0.1, 0}, 0.4}}, options));
+}
+
+TEST(KeptCharts, ServeStartsOfFlows) {
+    const Surface source(bent_ring());
+    const Shape shape(source);
+    const TargetDomain target{TargetCurve::circle(0, 1), {TargetCurve::circle(0, 0.3)}};
+    FlowStartOptions options;
+    options.shapes = {&shape};
+    const SlidingStart alone = flow_start(source, target);
+    const std::int64_t before = effort(Work::circle_chart);
+    const SlidingStart first = flow_start(source, target, {}, options),
+                       second = flow_start(source, target, {}, options);
+    EXPECT_EQ(effort(Work::circle_chart) - before, 1);
+    EXPECT_EQ(first.map, alone.map);
+    EXPECT_EQ(second.map, alone.map);
+}
+
+TEST(KeptCharts, ServePrescribedTargets) {
+    const Surface source(bent_ring()), target(bent_ring());
+    const Shape shape(target);
+    const auto& loops = source.topology.boundary_loops;
+    const std::vector<std::array<int, 2>> pairs{{loops[0][0], loops[0][0]}, {loops[1][0], loops[1][0]}};
+    ExtremalOptions options;
+    options.shapes = {&shape};
+    const PrescribedTarget alone = prescribed_target(source, target, pairs);
+    const std::int64_t before = effort(Work::circle_chart);
+    for (int i = 0; i < 2; ++i) {
+        const ExtremalMapBetween map = extremal_map_between(source, target, pairs, {}, options);
+        EXPECT_EQ(map.target.boundary.images, alone.boundary.images);
+        EXPECT_LT(map.plane.k, 1e-2) << "the identity";
+    }
+    EXPECT_EQ(effort(Work::circle_chart) - before, 1);
 }
 
 TEST(KeptCharts, AreThoseOfTheSurfaceAlone) {

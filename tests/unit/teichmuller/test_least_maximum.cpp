@@ -1,25 +1,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <functional>
 
 #include <beltrami/base/error.h>
 #include <beltrami/meshing/planar_domains.h>
 #include <beltrami/teichmuller/least_maximum.h>
 
+#include "support/cause_of.h"
 #include "support/meshes.h"
 
 namespace beltrami {
 namespace {
-
-Cause cause_of(const std::function<void()>& attempt) {
-    try {
-        attempt();
-    } catch (const Error& error) {
-        return error.cause();
-    }
-    return Cause::cancelled;
-}
 
 TEST(LeastMaximum, IsBelowTheExtremalMapAndTheInterpolatedExactOne) {
     DomainOptions domain;
@@ -156,11 +147,11 @@ TEST(LeastMaximum, ImpossibleInputIsRefused) {
     const Surface surface(disk(5));
     LeastMaximumOptions options;
     options.power = 0.5;
-    EXPECT_EQ(cause_of([&] { least_maximum_map(surface, {}, options); }), Cause::bad_option);
+    EXPECT_EQ(test::cause_of([&] { least_maximum_map(surface, {}, options); }), Cause::bad_option);
     BoundaryCondition twice;
     twice.pin(0, 0.0);
     twice.pin(1, 0.0);
-    EXPECT_EQ(cause_of([&] { least_maximum_map(surface, twice); }), Cause::bad_boundary);
+    EXPECT_EQ(test::cause_of([&] { least_maximum_map(surface, twice); }), Cause::bad_boundary);
     Mesh tetrahedron;
     tetrahedron.positions.resize(4, 3);
     tetrahedron.positions << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1;
@@ -168,7 +159,7 @@ TEST(LeastMaximum, ImpossibleInputIsRefused) {
     tetrahedron.faces.add({0, 1, 3});
     tetrahedron.faces.add({1, 2, 3});
     tetrahedron.faces.add({0, 3, 2});
-    EXPECT_EQ(cause_of([&] { least_maximum_map(Surface(tetrahedron), {}); }), Cause::bad_mesh);
+    EXPECT_EQ(test::cause_of([&] { least_maximum_map(Surface(tetrahedron), {}); }), Cause::bad_mesh);
 }
 
 }  // namespace

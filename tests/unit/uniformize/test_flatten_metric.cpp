@@ -13,6 +13,7 @@
 #include <beltrami/mesh/topology.h>
 #include <beltrami/uniformize/flatten.h>
 
+#include "support/cause_of.h"
 #include "support/meshes.h"
 
 namespace beltrami {
@@ -69,17 +70,6 @@ Mesh rhombus() {
     mesh.faces.add({0, 1, 2});
     mesh.faces.add({1, 3, 2});
     return mesh;
-}
-
-Cause cause_of(const std::function<void()>& action, std::vector<int>* indices = nullptr) {
-    try {
-        action();
-    } catch (const Error& error) {
-        if (indices) *indices = error.indices();
-        return error.cause();
-    }
-    ADD_FAILURE() << "nothing was thrown";
-    return Cause::cancelled;
 }
 
 TEST(FlattenInMetric, IsTheFlatteningOfTheMeshThatHasTheMetric) {
@@ -199,29 +189,29 @@ TEST(FlattenInMetric, RefusesMatricesOfOtherShapes) {
     const Mesh mesh = test::mixed_square(4);
     const Positions sound = corner_positions(mesh);
     const Eigen::Index n = sound.rows();
-    EXPECT_EQ(cause_of([&] { flatten(mesh, Positions()); }), Cause::bad_mesh);
-    EXPECT_EQ(cause_of([&] { flatten(mesh, mesh.positions); }), Cause::bad_mesh) << "per vertex";
-    EXPECT_EQ(cause_of([&] { flatten(mesh, Positions(sound.topRows(n - 1))); }), Cause::bad_mesh);
-    EXPECT_EQ(cause_of([&] { flatten(mesh, Positions(Positions::Random(n + 1, 2))); }), Cause::bad_mesh);
-    EXPECT_EQ(cause_of([&] { flatten(mesh, Positions(sound.leftCols(1))); }), Cause::bad_mesh);
-    EXPECT_EQ(cause_of([&] { flatten(mesh, Positions(Positions::Random(n, 4))); }), Cause::bad_mesh);
-    EXPECT_EQ(cause_of([&] { flatten(mesh, Positions(Positions::Zero(n, 2))); }), Cause::bad_mesh) << "no size";
+    EXPECT_EQ(test::cause_of([&] { flatten(mesh, Positions()); }), Cause::bad_mesh);
+    EXPECT_EQ(test::cause_of([&] { flatten(mesh, mesh.positions); }), Cause::bad_mesh) << "per vertex";
+    EXPECT_EQ(test::cause_of([&] { flatten(mesh, Positions(sound.topRows(n - 1))); }), Cause::bad_mesh);
+    EXPECT_EQ(test::cause_of([&] { flatten(mesh, Positions(Positions::Random(n + 1, 2))); }), Cause::bad_mesh);
+    EXPECT_EQ(test::cause_of([&] { flatten(mesh, Positions(sound.leftCols(1))); }), Cause::bad_mesh);
+    EXPECT_EQ(test::cause_of([&] { flatten(mesh, Positions(Positions::Random(n, 4))); }), Cause::bad_mesh);
+    EXPECT_EQ(test::cause_of([&] { flatten(mesh, Positions(Positions::Zero(n, 2))); }), Cause::bad_mesh) << "no size";
     for (const double value : {std::nan(""), std::numeric_limits<double>::infinity()}) {
         Positions wild = sound;
         wild(mesh.faces.first_corner(5) + 1, 1) = value;
         std::vector<int> named;
-        EXPECT_EQ(cause_of([&] { flatten(mesh, wild); }, &named), Cause::bad_mesh);
+        EXPECT_EQ(test::cause_of([&] { flatten(mesh, wild); }, &named), Cause::bad_mesh);
         EXPECT_EQ(named, std::vector<int>{5});
     }
     FlattenOptions options;
     options.tolerance = 0;
-    EXPECT_EQ(cause_of([&] { flatten(mesh, sound, options); }), Cause::bad_option);
-    EXPECT_EQ(cause_of([&] { flatten(Mesh{}, Positions(0, 2)); }), Cause::bad_mesh);
+    EXPECT_EQ(test::cause_of([&] { flatten(mesh, sound, options); }), Cause::bad_option);
+    EXPECT_EQ(test::cause_of([&] { flatten(Mesh{}, Positions(0, 2)); }), Cause::bad_mesh);
 }
 
 TEST(FlattenInMetric, NamesFacesWhoseNeighboursContradictThem) {
     std::vector<int> named;
-    EXPECT_EQ(cause_of([] { flatten(rhombus(), two_triangles(4)); }, &named), Cause::bad_mesh);
+    EXPECT_EQ(test::cause_of([] { flatten(rhombus(), two_triangles(4)); }, &named), Cause::bad_mesh);
     EXPECT_EQ(named, std::vector<int>{0});
 }
 
