@@ -28,6 +28,7 @@ const Page& prescribed() {
             {"figure_11", figure_11}, {"figure_12", figure_12}, {"figure_13", figure_13}, {"figure_14", figure_14},
             {"figure_15", figure_15}, {"figure_16", figure_16}, {"figure_17", figure_17}, {"figure_18", figure_18},
             {"figure_19", figure_19}, {"corners", corners},     {"scan", scan},           {"holes_27", holes_27},
+            {"smoothing", smoothing},
         }};
     return page;
 }

@@ -181,9 +181,10 @@ Figure figure_18(Output& output);  ///< combined with the metric of an ARAP map
 Figure figure_19(Output& output);  ///< a ball with twelve holes
 
 // Beyond the paper.
-Figure corners(Output& output);   ///< corners of the source and of the boundary values
-Figure scan(Output& output);      ///< mcqc3d_planar_src.obj with its pins, if the folder BELTRAMI_MESHES has it
-Figure holes_27(Output& output);  ///< 27 holes
+Figure corners(Output& output);    ///< corners of the source and of the boundary values
+Figure scan(Output& output);       ///< mcqc3d_planar_src.obj with its pins, if the folder BELTRAMI_MESHES has it
+Figure holes_27(Output& output);   ///< 27 holes
+Figure smoothing(Output& output);  ///< the QC iteration by passes of smoothing
 
 // Boundaries that slide: beside Ng, Gu & Lui.
 Figure sliding_given(Output& output);     ///< given boundary values and the extremal ones (their Figs 1 to 3)

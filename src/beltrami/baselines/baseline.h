@@ -18,7 +18,8 @@ struct BaselineOptions {
     /// MIPS as Newton's method predicts it, for the alternation the part of the image's area. For the QC iteration:
     /// when the coefficient changes by less than this (root mean square). No unit.
     double tolerance = 1e-5;
-    double smoothing = 0.5;  ///< of arg μ by one step of the QC iteration, 0 … 1; the other methods ignore it
+    double smoothing = 0.5;    ///< of arg μ by one pass of the QC iteration, 0 … 1; the other methods ignore it
+    int smoothing_passes = 1;  ///< between two solves of the QC iteration, at least 0
     /// Called once per iteration with its number and the energy (ARAP: per source area, 0 for an isometry; MIPS: mean,
     /// 1 for a conformal map; alternation and QC iteration: Σ A |∂̄f − ν∂f|² per area of the image); returning false
     /// cancels (Error cancelled).
@@ -103,9 +104,9 @@ BaselineMap alternation_baseline(const Surface& source, const BoundaryCondition&
 ///
 /// Any topology, with interior pins. Folds are not excluded. Details: arg μ goes by `smoothing` of the way to the mean
 /// of its neighbours, differences taken in (−π, π]; the default of one half is Gruber & Aulisa's Algorithm 4, by way of
-/// the edges; 0 leaves arg μ alone. Coefficients of neighbours are turned into the face's frame across their common
-/// edge, e^{−2iθ}, so that surfaces need no flattening; |μ| counts as at most 0.95 in the mean; a quad's samples are
-/// neighbours of each other.
+/// the edges; 0 leaves arg μ alone. One pass a step is the papers'; more of them make it worse (their remark 5.3).
+/// Coefficients of neighbours are turned into the face's frame across their common edge, e^{−2iθ}, so that surfaces
+/// need no flattening; |μ| counts as at most 0.95 in the mean; a quad's samples are neighbours of each other.
 /// @pre the whole boundary is prescribed
 /// @throw Error bad_mesh, bad_boundary, not_solved, cancelled, bad_option
 BaselineMap qc_iteration_baseline(const Surface& source, const BoundaryCondition& boundary,

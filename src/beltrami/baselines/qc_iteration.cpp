@@ -44,10 +44,13 @@ BaselineMap qc_iteration_baseline(const Surface& source, const BoundaryCondition
             phase[s] = size > 0 && other > 0 ? phase[s] / (size * other) : Complex(1);
         }
         mean /= samples;
-        neighbours.smooth(phase, options.smoothing, smoothed);
+        for (int pass = 0; pass < options.smoothing_passes; ++pass) {
+            neighbours.smooth(phase, options.smoothing, smoothed);
+            phase.swap(smoothed);
+        }
         double change = 0;
         for (int s = 0; s < samples; ++s) {
-            const Complex next = mean * smoothed[s];
+            const Complex next = mean * phase[s];
             change += operators.weights[s] * std::norm(next - nu[s]);
             nu[s] = next;
         }

@@ -14,6 +14,7 @@ void BaselineOptions::validate() const {
     if (max_iterations < 1) throw Error(Cause::bad_option, "max_iterations must be at least 1");
     if (!(tolerance > 0 && tolerance < 1)) throw Error(Cause::bad_option, "tolerance must lie between 0 and 1");
     if (!(smoothing >= 0 && smoothing <= 1)) throw Error(Cause::bad_option, "smoothing must lie between 0 and 1");
+    if (smoothing_passes < 0) throw Error(Cause::bad_option, "smoothing_passes must not be negative");
 }
 
 namespace detail {

@@ -218,6 +218,9 @@ TEST(Baselines, RejectWhatIsMissing) {
         options = {};
         options.smoothing = 1.5;
         expect_error(Cause::bad_option, "smoothing", [&] { method.map(source, one, options); });
+        options = {};
+        options.smoothing_passes = -1;
+        expect_error(Cause::bad_option, "smoothing_passes", [&] { method.map(source, one, options); });
     }
 }
 
