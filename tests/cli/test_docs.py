@@ -1,12 +1,16 @@
 """The documentation against the project: links lead somewhere, options that pages name are the command's, every page and
 example is listed."""
 
+import json
+import os
 import pathlib
 import re
 import subprocess
 import unittest
 
-from support import BELTRAMI
+import jsonschema
+
+from support import BELTRAMI, SCHEMA
 
 ROOT = pathlib.Path(__file__).parents[2]
 PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md")])
@@ -54,6 +58,12 @@ class Links(unittest.TestCase):
         self.assertTrue(examples)
         for example in examples:
             self.assertIn(f"(examples/{example.name})", readme)
+
+    @unittest.skipUnless("BELTRAMI_JSON_RECORD" in os.environ, "BELTRAMI_JSON_RECORD names the example program")
+    def test_the_record_of_the_example_obeys_the_schema(self):
+        record = json.loads(subprocess.run([os.environ["BELTRAMI_JSON_RECORD"]], capture_output=True, check=True).stdout)
+        jsonschema.validate(record, SCHEMA)
+        self.assertEqual({"schema", "command", "source", "map", "solve", "warnings"}, set(record))
 
     def test_pictures_are_shown(self):
         shown = set(re.findall(r"\(gallery/([^)]+\.png)\)", "".join(p.read_text() for p in (ROOT / "docs").glob("*.md"))))
