@@ -44,7 +44,7 @@ struct Image {
         }
         if (!turned.empty())
             throw Error(Cause::bad_mesh,
-                        "the map turns over or flattens " + std::to_string(turned.size()) + " faces, the first being " +
+                        "the map flips or flattens " + std::to_string(turned.size()) + " faces, the first being " +
                             std::to_string(turned[0]),
                         "a grid needs a one-to-one map", {Things::faces, turned});
         return image;

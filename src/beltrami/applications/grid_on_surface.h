@@ -44,7 +44,7 @@ struct SurfaceGrid {
 /// Where cells touch at a corner only, the vertex is doubled: the result is a manifold.
 /// @param map #V images in the plane, all faces counter-clockwise; a quad is read as two triangles
 /// @throw Error bad_option for an impossible grid or one that has no cell inside; bad_mesh unless the
-///        surface has one component, genus 0 and a boundary, or naming faces that the map turns over or makes flat
+///        surface has one component, genus 0 and a boundary, or naming faces that the map flips or makes flat
 SurfaceGrid grid_on_surface(const Surface& source, const Eigen::VectorXcd& map, const PlaneGrid& grid,
                             const GridOptions& options = {});
 

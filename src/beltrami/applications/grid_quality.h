@@ -15,7 +15,7 @@ struct GridQuality {
     double mean_aspect = 0;  ///< longest edge of a face over its shortest, the mean over all faces
     double max_aspect = 0;
     double area_ratio = 1;    ///< largest area of a quad over the smallest
-    std::vector<int> folded;  ///< faces with a corner that is flat or reflex, or turned over against the surface
+    std::vector<int> folded;  ///< faces with a corner that is flat or reflex, or flipped against the surface
 };
 
 /// @param normals #V×3 normals of the surface at the vertices of the grid

@@ -14,7 +14,7 @@ enum class WarningKind {
     mesh,              ///< the diagnosis of a mesh found something that does not prevent a map
     mended,            ///< the mesh was changed before anything else
     edges_split,       ///< edges between prescribed vertices were split
-    chart,             ///< a conformal chart is not conformal, or turned over, at some faces
+    chart,             ///< a conformal chart is not conformal at some faces, or flips them
     pinched_faces,     ///< a circle domain has no room for some faces
     differentials,     ///< the space of quadratic differentials is not told clearly, or has another dimension
     constraints,       ///< constraints that φ cannot follow in full

@@ -76,7 +76,7 @@ BaselineMap arap_baseline(const Surface& source, const BoundaryCondition& bounda
 /// (|∂f|²+|∂̄f|²)/(|∂f|²−|∂̄f|²) by Newton's method (fold_free.h), without folds. Any number of pins. It starts from the
 /// first map without folds among: the harmonic map where the whole boundary is prescribed, else the least-squares
 /// conformal one; Tutte's (1963) where the boundary is sent to a convex polygon or nothing is prescribed, onto a circle
-/// then; the first of these untangled. With less than two pins the areas of the image add up to that of the source.
+/// then; the first of these unfolded. With less than two pins the areas of the image add up to that of the source.
 /// @throw Error bad_mesh, bad_boundary, not_solved, cancelled, bad_option
 BaselineMap mips_baseline(const Surface& source, const BoundaryCondition& boundary,
                           const BaselineOptions& options = {});

@@ -44,7 +44,7 @@ BaselineMap mips_baseline(const Surface& source, const BoundaryCondition& bounda
             result.warnings.push_back(
                 {WarningKind::start, "the linear start has folds; started from Tutte's map instead"});
         } else {
-            result.warnings.push_back({WarningKind::start, "the linear start has folds and was untangled"});
+            result.warnings.push_back({WarningKind::start, "the linear start has folds and was unfolded"});
         }
     }
     FoldFreeOptions descent;

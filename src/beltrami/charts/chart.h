@@ -41,7 +41,7 @@ struct Chart {
 /// The chart whose vertex positions are @p vertices: derivatives, positions at the samples, excluded samples.
 Chart make_chart(const Surface& source, Eigen::VectorXcd vertices, bool exact);
 
-/// The part of the chart's area in samples that it turns over, or so distorts that their shape there is none: |μ| ≥
+/// The part of the chart's area in samples that it flips, or so distorts that their shape there is none: |μ| ≥
 /// .95.
 double unseen_part(const Surface& source, const Chart& chart);
 /// Whether it does so to a sample.

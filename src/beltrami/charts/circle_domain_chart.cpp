@@ -110,7 +110,7 @@ std::vector<int> pinched_faces(const Surface& source, int outer_loop) {
     return faces;
 }
 
-/// Of the faces turned over, those that do not touch a pinched one.
+/// Of the faces flipped, those that do not touch a pinched one.
 std::vector<int> unforced(const Surface& source, const CircleDomainChart& chart) {
     std::vector<char> touched(source.mesh.vertex_count(), 0);
     for (const int f : chart.pinched)
@@ -131,7 +131,7 @@ void measure(const Surface& source, CircleDomainChart& result) {
     result.flipped = map.flipped;
 }
 
-/// Unfolds the inside of the rims where faces came out turned over, if it can be done.
+/// Unfolds the inside of the rims where faces came out flipped, if it can be done.
 void unfold(const Surface& source, CircleDomainChart& result) {
     const std::vector<int> folded = unforced(source, result);
     if (folded.empty()) return;
@@ -149,12 +149,12 @@ void unfold(const Surface& source, CircleDomainChart& result) {
     measure(source, result);
     if (const std::vector<int> faces = unforced(source, result); !faces.empty())
         throw Error(Cause::not_solved,
-                    std::to_string(faces.size()) + " faces stay turned over in the circle domain, the first is face " +
+                    std::to_string(faces.size()) + " faces stay flipped in the circle domain, the first is face " +
                         std::to_string(faces[0]),
                     "refine the mesh near them", {Things::faces, faces});
     result.chart.warnings.push_back({WarningKind::chart,
-                                     "the harmonic map turned " + std::to_string(folded.size()) +
-                                         " faces over; they were unfolded, which costs conformality",
+                                     "the harmonic map flipped " + std::to_string(folded.size()) +
+                                         " faces; they were unfolded, which costs conformality",
                                      {Things::faces, folded}});
 }
 

@@ -34,9 +34,9 @@ struct CircleDomainChart {
     double mean_mu = 0;    ///< |μ| of the map that is linear on the faces
     double standard_deviation = 0;
     double max_mu = 0;
-    std::vector<int> flipped;  ///< faces turned over: at most what pinched faces force
+    std::vector<int> flipped;  ///< flipped faces: at most what pinched faces force
     /// Faces with an inner edge between two vertices of one hole. That edge runs across the hole of the circle domain,
-    /// so that it or a face behind it is turned over whatever the map: to be split in the surface.
+    /// so that it or a face behind it is flipped whatever the map: to be split in the surface.
     std::vector<int> pinched;
     int steps = 0;          ///< Newton steps
     bool converged = true;  ///< the last step was below the tolerance
@@ -60,9 +60,9 @@ struct CircleDomainChart {
 ///   conformal energy Σ A|∂̄f|² over all f whose rims lie on circles: every rim vertex slides along its circle,
 ///   the centre and radius of every hole are unknowns too, three vertices of the outer loop are held
 ///   (docs/conformal.md). The minimum is zero exactly for the conformal map; f's error is of second order.
-/// Faces that come out turned over are unfolded with the rims fixed (fold_free_map); chart.warnings records it.
+/// Faces that come out flipped are unfolded with the rims fixed (fold_free_map); chart.warnings records it.
 /// @throw Error bad_option if there is no such loop; bad_mesh unless there is one component of genus 0 with boundary;
-///        not_solved if circles come too close to each other or faces stay turned over (but for those that pinched
+///        not_solved if circles come too close to each other or faces stay flipped (but for those that pinched
 ///        faces force)
 CircleDomainChart circle_domain_chart(const Surface& source, int outer_loop = 0,
                                       const CircleDomainOptions& options = {});

@@ -17,7 +17,7 @@ struct RoundDiskOptions {
 /// A planar source whose boundary already lies on a circle is only moved and scaled (exact = true). A large surface is
 /// mapped by its own Green's function (disk_map_by_greens_function). Otherwise the surface is flattened (flatten), and
 /// g = (w − p) exp(h + i h*) with h harmonic, h = −log|w − p| on the boundary, so |g| = 1 there: Riemann's construction
-/// by Green's function. If faces come out turned over, h* is found more carefully (ConjugateBy::system), and the better
+/// by Green's function. If faces come out flipped, h* is found more carefully (ConjugateBy::system), and the better
 /// chart is kept; if there are some still, by a source at a vertex (vertex_source.h), and the chart is kept that turns
 /// over less of itself. Then, optionally, sliding steps: boundary vertices move along the circle,
 /// three of them held, to minimise the conformal energy.

@@ -74,7 +74,7 @@ Eigen::VectorXcd flattened(const Surface& source, Warnings& warnings) {
     if (!flat.flipped.empty())
         warnings.push_back({WarningKind::chart,
                             std::to_string(flat.flipped.size()) +
-                                " faces are turned over in the flattening that the differential is written in",
+                                " faces are flipped in the flattening that the differential is written in",
                             {Things::faces, flat.flipped}});
     return flat.positions;
 }

@@ -17,7 +17,7 @@ struct LoopPath {
 /// other holes (of equally near ones the smallest vertex of the hole), the path between them keeps close to their
 /// straight line and meets no other boundary vertex where the mesh allows that. In a concentric annulus it is radial.
 /// Where no pair sees each other it is the shortest path of edges.
-/// @param positions  #V places in the plane, where no face is turned over: a chart's, or the mesh's own
+/// @param positions  #V places in the plane, where no face is flipped: a chart's, or the mesh's own
 /// @param outer_loop the loop around all others, as a rule 0
 /// @return one per loop other than the outer one, ascending
 /// @throw Error bad_option if outer_loop does not exist; bad_mesh if a hole is on another component

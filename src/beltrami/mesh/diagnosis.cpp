@@ -270,8 +270,8 @@ class Examination {
         if (!up.empty() && !down.empty()) {
             const std::vector<int>& fewer = down.size() <= up.size() ? down : up;
             report(Defect::folded_planar_face, true,
-                   subject("face", "faces", fewer, "is", "are") + " turned over in the plane, against the other faces",
-                   "untangle the planar mesh, or give it the third coordinate it was projected from", fewer);
+                   subject("face", "faces", fewer, "is", "are") + " flipped in the plane, against the other faces",
+                   "unfold the planar mesh, or give it the third coordinate it was projected from", fewer);
         }
         if (!reflex.empty()) {
             report(Defect::reflex_quad, false, subject("quad", "quads", reflex, "is", "are") + " not convex",

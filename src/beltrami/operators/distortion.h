@@ -6,7 +6,7 @@
 namespace beltrami BELTRAMI_PUBLIC {
 
 /// μ = ∂̄f/∂f at every sample (#S) of a map. |μ| < 1 exactly where the map keeps orientation, > 1 where it
-/// is turned over; infinite where ∂f = 0 only, NaN where both derivatives vanish.
+/// is flipped; infinite where ∂f = 0 only, NaN where both derivatives vanish.
 Eigen::VectorXcd beltrami_coefficient(const MapDerivatives& map);
 Eigen::VectorXcd beltrami_coefficient(const Operators& source, const Eigen::VectorXcd& map);
 

@@ -17,7 +17,7 @@ void require_coefficient(const Surface& source, const Eigen::VectorXcd& mu);
 ///
 /// Boundary values and μ together say more than a map can obey: those with this μ differ by conformal maps of the image
 /// only. Where the values are those of one of them the error is of second order in the size of the faces; where they
-/// are not, the least-squares map results, whose own coefficient is another (distortion.h). Faces may be turned over
+/// are not, the least-squares map results, whose own coefficient is another (distortion.h). Faces may be flipped
 /// where the values do not belong to μ or |μ| is near 1.
 ///
 /// Boundary vertices that are not prescribed are free (natural condition): with two pinned vertices the result is the

@@ -99,7 +99,7 @@ struct ExtremalMap : MapResult {
     DiskMoebius move;            ///< of the source's circle domain before the holes were led to their places
     std::vector<Waypoint> path;  ///< the way of the holes, as in the correspondence; empty: straight
     bool led = false;            ///< the start was led along the way; else it is the harmonic map
-    /// Faces that the harmonic map with the boundary of the start turns over (on the coarse mesh, if there was one).
+    /// Faces that the harmonic map with the boundary of the start flips (on the coarse mesh, if there was one).
     int start_flips = 0;
     bool start_unfolded = false;  ///< folds of the start were opened before the iteration
     /// How far φ of the space are from real along what slides, as part of their size: largest ‖Im φ τ²‖/‖φ‖; 0 where

@@ -32,7 +32,7 @@ class ExtremalSolver {
         const Eigen::VectorXcd& map;  ///< #V, valid until the next call
         double k;                     ///< of the last c-step
         double change;                ///< of the direction of φ in the last iteration
-        int flipped;                  ///< samples that are turned over
+        int flipped;                  ///< samples that are flipped
         bool converged;
     };
 

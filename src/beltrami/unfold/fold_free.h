@@ -54,7 +54,7 @@ struct FoldFreeMap {
 /// A larger p is reached by doubling.
 ///
 /// M does not change under similarities, so in a component with no fixed vertex two are held, in one with a single
-/// fixed vertex one more. A start that is turned over as a whole, with nothing fixed, is reflected first.
+/// fixed vertex one more. A start that is flipped as a whole, with nothing fixed, is reflected first.
 /// @param freedoms #V, free or fixed; fixed vertices keep their value of @p start
 /// @param nu       #S coefficients in the samples' frames, |ν| < 1
 /// @param start    #V, folded or not

@@ -27,7 +27,7 @@ struct FlattenOptions {
 struct Flattening {
     Eigen::VectorXcd positions;  ///< #V points of the plane; 0 at vertices without faces
     Eigen::VectorXd log_scale;   ///< #V logarithm u of the scale factor: lengths become l_ij e^{(u_i+u_j)/2}
-    std::vector<int> flipped;    ///< faces that come out turned over or without area between their image points
+    std::vector<int> flipped;    ///< faces that come out flipped or without area between their image points
     int iterations = 0;          ///< Newton steps
     int factorizations = 0;
     int flips = 0;            ///< intrinsic edge flips

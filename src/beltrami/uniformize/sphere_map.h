@@ -72,7 +72,7 @@ struct SphereMap {
 /// The Möbius map is chosen that puts the centre of mass at the sphere's centre; rotations remain.
 ///
 /// - The result depends on the surface and not on how it is triangulated, nor on the ideal vertex, to rounding.
-/// - Where edges of the mesh had to be flipped a face drawn between the points may come out turned over: then a few
+/// - Where edges of the mesh had to be flipped a face drawn between the points may come out flipped: then a few
 ///   vertices around it are moved (sphere_repair.h); where that does not do, or the iteration fails, the map of least
 ///   distortion on this mesh is taken; where that fails too this is an error, which says which share of the surface the
 ///   map makes so small that double precision does not resolve it. A map with flipped faces is never returned.

@@ -371,7 +371,7 @@ TEST(Mips, UntanglesThreeLobes) {
     EXPECT_TRUE(mentions(start, "flipped"));
     const BaselineMap result = mips_baseline(source, boundary);
     EXPECT_TRUE(result.converged);
-    EXPECT_TRUE(mentions(result, "untangled"));
+    EXPECT_TRUE(mentions(result, "unfolded"));
     EXPECT_TRUE(distortion(source.operators, result.map).flipped.empty());
     EXPECT_LE(result.iterations, 40);
 }
