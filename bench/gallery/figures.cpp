@@ -62,6 +62,7 @@ const Page& sliding() {
             {"sliding_13", sliding_13},
             {"sliding_classes", sliding_classes},
             {"sliding_distance", sliding_distance},
+            {"sliding_distance_scans", sliding_distance_scans},
             {"sliding_mixed", sliding_mixed},
         }};
     return page;

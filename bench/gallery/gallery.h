@@ -187,19 +187,20 @@ Figure holes_27(Output& output);   ///< 27 holes
 Figure smoothing(Output& output);  ///< the QC iteration by passes of smoothing
 
 // Boundaries that slide: beside Ng, Gu & Lui.
-Figure sliding_given(Output& output);     ///< given boundary values and the extremal ones (their Figs 1 to 3)
-Figure sliding_01(Output& output);        ///< maps with a given coefficient (Examples 1 to 3)
-Figure sliding_values(Output& output);    ///< known values of k
-Figure sliding_04(Output& output);        ///< their Example 4
-Figure sliding_05(Output& output);        ///< orders of convergence
-Figure sliding_06(Output& output);        ///< five and nine holes (Examples 6 and 7)
-Figure sliding_08(Output& output);        ///< arbitrary shapes and sizes (Examples 8, 10 and 11)
-Figure sliding_09(Output& output);        ///< seconds (Example 9)
-Figure sliding_12(Output& output);        ///< scans (Example 12), if the folder BELTRAMI_MESHES has them
-Figure sliding_13(Output& output);        ///< grids (Example 13), likewise
-Figure sliding_mixed(Output& output);     ///< conditions that mix
-Figure sliding_classes(Output& output);   ///< holes that change places; rotated starts; symmetric domains
-Figure sliding_distance(Output& output);  ///< distances of shapes and their clusters
+Figure sliding_given(Output& output);           ///< given boundary values and the extremal ones (their Figs 1 to 3)
+Figure sliding_01(Output& output);              ///< maps with a given coefficient (Examples 1 to 3)
+Figure sliding_values(Output& output);          ///< known values of k
+Figure sliding_04(Output& output);              ///< their Example 4
+Figure sliding_05(Output& output);              ///< orders of convergence
+Figure sliding_06(Output& output);              ///< five and nine holes (Examples 6 and 7)
+Figure sliding_08(Output& output);              ///< arbitrary shapes and sizes (Examples 8, 10 and 11)
+Figure sliding_09(Output& output);              ///< seconds (Example 9)
+Figure sliding_12(Output& output);              ///< scans (Example 12), if the folder BELTRAMI_MESHES has them
+Figure sliding_13(Output& output);              ///< grids (Example 13), likewise
+Figure sliding_mixed(Output& output);           ///< conditions that mix
+Figure sliding_classes(Output& output);         ///< holes that change places; rotated starts; symmetric domains
+Figure sliding_distance(Output& output);        ///< distances of shapes and their clusters
+Figure sliding_distance_scans(Output& output);  ///< of scans, if the folder BELTRAMI_MESHES has them
 
 Figure spheres(Output& output);  ///< closed surfaces, scans if the folder BELTRAMI_MESHES has them
 

@@ -1,8 +1,10 @@
 // Scans, if the folder BELTRAMI_MESHES has them: maps onto domains and surfaces, and grids.
+#include <beltrami/io/atomic_file.h>
 #include <beltrami/io/read_mesh.h>
 #include <beltrami/mesh/cut.h>
 #include <beltrami/mesh/subdivide.h>
 #include <beltrami/mesh/submesh.h>
+#include <beltrami/report/dendrogram.h>
 
 #include <algorithm>
 #include <cmath>
@@ -84,6 +86,14 @@ Mesh opened(Mesh mesh, const std::vector<Ellipse>& ellipses) {
         mesh = largest_component(cut.mesh).mesh;
     }
     return mesh;
+}
+
+/// human_face with eyes and mouth cut out, as alex_3 has them.
+std::optional<Mesh> second_face() {
+    const auto path = scan_path("human_face.obj");
+    if (!path) return {};
+    return opened(read_mesh(*path).mesh,
+                  {{-0.031, 0.2735, 0.0145, 0.0065}, {0.031, 0.2735, 0.0145, 0.0065}, {0, 0.2115, 0.026, 0.008}});
 }
 
 /// Writes a mesh in space with places of a plane as its map.
@@ -232,11 +242,8 @@ Figure sliding_12(Output& output) {
     if (const auto planar = scan_path("mcqc3d_planar_src.obj"))
         between(output, figure, table, "sliding_12_planar", "alex_3 onto mcqc3d_planar_src", face,
                 Surface(read_mesh(*planar).mesh), numbered(3));
-    if (const auto path_of_other = scan_path("human_face.obj")) {
-        // Eyes and mouth, as alex_3 has them.
-        const Surface second(
-            opened(read_mesh(*path_of_other).mesh,
-                   {{-0.031, 0.2735, 0.0145, 0.0065}, {0.031, 0.2735, 0.0145, 0.0065}, {0, 0.2115, 0.026, 0.008}}));
+    if (auto open_face = second_face()) {
+        const Surface second(std::move(*open_face));
         between(output, figure, table, "sliding_12_scans", "alex_3 onto human_face, cut open at eyes and mouth", face,
                 second);
         between(output, figure, table, "sliding_12_scans_back", "human_face, cut open, onto alex_3", second, face);
@@ -257,6 +264,41 @@ Figure sliding_12(Output& output) {
                              ". mcqc3d_planar_src is a conformal image of alex_3 up to the errors of the mesh, which "
                              "the small k finds out; what is left of |μ| there is those errors.");
     amoeba_onto_disk(output, figure);
+    return figure;
+}
+
+Figure sliding_distance_scans(Output& output) {
+    const auto first = scan_path("alex_3.obj"), planar = scan_path("mcqc3d_planar_src.obj");
+    const auto second = second_face();
+    if (!first || !planar || !second) return {};
+    Figure figure{"Distances of scans",
+                  "½ log K* between two scanned faces with eyes and mouth open, a copy of each that is deformed in the "
+                  "same way, and a conformal image of the first one in the plane; holes matched by position, every "
+                  "distance from the maps both ways."};
+    const Mesh face = read_mesh(*first).mesh;
+    const std::vector<std::string> names{"alex_3", "alex_3 in the plane", "alex_3, deformed", "human_face",
+                                         "human_face, deformed"};
+    std::vector<Surface> surfaces;
+    for (const Mesh& mesh : {face, read_mesh(*planar).mesh, deformed(face), *second, deformed(*second)})
+        surfaces.emplace_back(mesh);
+    const DistanceMatrix matrix = distance_matrix(surfaces, {}, {}, {}, names);
+    Table table{"", {""}, {}};
+    table.head.insert(table.head.end(), names.begin(), names.end());
+    for (int i = 0; i < matrix.distance.rows(); ++i) {
+        std::vector<std::string> row{names[i]};
+        for (int j = 0; j < matrix.distance.cols(); ++j)
+            row.push_back(i == j ? "0"
+                                 : number(matrix.distance(i, j)) + " (" + number(matrix.lower(i, j)) + " to " +
+                                       number(matrix.upper(i, j)) + ")");
+        table.rows.push_back(std::move(row));
+    }
+    figure.tables.push_back(std::move(table));
+    write_atomically(output.folder() / "sliding_distance_scans.svg",
+                     render_dendrogram(names, matrix.distance, cluster_by_distance(matrix.distance)));
+    figure.pictures.push_back({"sliding_distance_scans",
+                               "The matrix and the tree of its clusters.",
+                               {svg_panel("sliding_distance_scans.svg")}});
+    figure.remarks.push_back("Pairs that have not settled: " + std::to_string(matrix.unsettled.size()) + ".");
     return figure;
 }
 

@@ -85,7 +85,7 @@ QuadraticDifferential differential_of(const Surface& source, std::function<Compl
         throw Error(Cause::bad_mesh, "the source does not lie in the plane in whose coordinates φ is given",
                     "give φ at the samples instead");
     auto chart = std::make_shared<Chart>(make_chart(source, *z, true));
-    chart->analytic = [](Complex z) { return std::array<Complex, 2>{z, 1.0}; };
+    chart->analytic = [](Complex at) { return std::array<Complex, 2>{at, 1.0}; };
     std::sort(poles.begin(), poles.end());
     return {std::make_shared<GivenSpace>(std::move(phi)),
             std::move(chart),
