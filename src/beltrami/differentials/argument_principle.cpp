@@ -57,14 +57,13 @@ std::vector<std::optional<double>> turning(const PlaneFunction& f, std::vector<P
             std::optional<double>& sum = turned[piece.path];
             if (!sum) continue;
             const Complex a = piece.at_from, b = piece.at_to;
-            if (!has_argument(a) || !has_argument(b))
-                sum.reset();
-            else if (std::abs(b - a) <= kQuiet * std::min(std::abs(a), std::abs(b)))
+            const bool known = has_argument(a) && has_argument(b);
+            if (known && std::abs(b - a) <= kQuiet * std::min(std::abs(a), std::abs(b)))
                 *sum += std::arg(b / a);
-            else if (division == kMostDivisions)
-                sum.reset();
-            else
+            else if (known && division < kMostDivisions)
                 loud.push_back(piece);
+            else
+                sum.reset();
         }
         std::erase_if(loud, [&](const Piece& piece) { return !turned[piece.path]; });
         Eigen::VectorXcd middles(static_cast<Eigen::Index>(loud.size()));
@@ -316,6 +315,7 @@ std::optional<int> turns_on_circle(const PlaneFunction& f, Complex centre, doubl
     for (int i = 0; i < kCirclePieces; ++i) points[i] = point(0, static_cast<double>(i) / kCirclePieces);
     const Eigen::VectorXcd values = f(points);
     std::vector<Piece> pieces;
+    pieces.reserve(kCirclePieces);
     for (int i = 0; i < kCirclePieces; ++i)
         pieces.push_back({0, static_cast<double>(i) / kCirclePieces, (i + 1.0) / kCirclePieces, values[i],
                           values[(i + 1) % kCirclePieces]});

@@ -33,9 +33,10 @@ struct FaceTriangle {
 /// the chart; with a rim along the boundary.
 class PlaneOfDifferential {
   public:
-    PlaneOfDifferential(const Surface& source, const QuadraticDifferential& phi)
-        : source_(source), phi_(phi), own_(phi.chart->exact && phi.chart->analytic && source.in_plane()) {
-        const Eigen::VectorXcd& z = own_ ? *source.coordinate() : phi.chart->vertices;
+    PlaneOfDifferential(const Surface& source, const QuadraticDifferential& phi) : source_(source), phi_(phi) {
+        const Eigen::VectorXcd* own = phi.chart->exact && phi.chart->analytic ? source.coordinate() : nullptr;
+        own_ = own != nullptr;
+        const Eigen::VectorXcd& z = own ? *own : phi.chart->vertices;
         region_.points = z;
         add_faces(z);
         add_rim(z);
@@ -159,7 +160,7 @@ class PlaneOfDifferential {
 
     const Surface& source_;
     const QuadraticDifferential& phi_;
-    bool own_;
+    bool own_ = false;
     PlaneTriangles region_;
     std::vector<FaceTriangle> triangles_;                 ///< the first of the region's; those of the rim follow
     std::map<std::pair<int, int>, FaceTriangle> beside_;  ///< on the left of a directed edge

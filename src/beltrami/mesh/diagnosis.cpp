@@ -14,21 +14,21 @@
 namespace beltrami {
 namespace {
 
-constexpr int listed_at_most = 10;
+constexpr int kListedAtMost = 10;
 /// Area over the square of the longest edge below which a face has no area: pure rounding, whatever its size.
-constexpr double zero_area_ratio = 1e-14;
-constexpr double sliver_angle = 0.5 * std::numbers::pi / 180.0;
+constexpr double kZeroAreaRatio = 1e-14;
+constexpr double kSliverAngle = 0.5 * std::numbers::pi / 180.0;
 
 /// "3, 8, 9 and 12 more": the first few items, where each item is @p width consecutive indices.
 std::string list(const std::vector<int>& indices, int width = 1) {
     const int count = static_cast<int>(indices.size()) / width;
     std::string text;
-    for (int i = 0; i < std::min(count, listed_at_most); ++i) {
+    for (int i = 0; i < std::min(count, kListedAtMost); ++i) {
         if (i > 0) text += ", ";
         text += std::to_string(indices[i * width]);
         for (int j = 1; j < width; ++j) text += "-" + std::to_string(indices[i * width + j]);
     }
-    if (count > listed_at_most) text += " and " + std::to_string(count - listed_at_most) + " more";
+    if (count > kListedAtMost) text += " and " + std::to_string(count - kListedAtMost) + " more";
     return text;
 }
 
@@ -253,11 +253,11 @@ class Examination {
         for (int face = 0; face < mesh_.face_count(); ++face) {
             if (degenerate_[face]) continue;
             const Shape shape = measure(face);
-            if (shape.area_ratio < zero_area_ratio) {
+            if (shape.area_ratio < kZeroAreaRatio) {
                 zero.push_back(face);
                 continue;
             }
-            if (faces_.degree(face) == 3 && shape.smallest_angle < sliver_angle) slivers.push_back(face);
+            if (faces_.degree(face) == 3 && shape.smallest_angle < kSliverAngle) slivers.push_back(face);
             if (shape.reflex) reflex.push_back(face);
             if (planar) (shape.upward ? up : down).push_back(face);
         }
