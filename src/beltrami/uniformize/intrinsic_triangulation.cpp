@@ -96,16 +96,16 @@ void IntrinsicTriangulation::glue(int h, int twin) {
     if (twin >= 0) twins_[twin] = h;
 }
 
-int IntrinsicTriangulation::make_delaunay() {
+std::vector<EdgeFlip> IntrinsicTriangulation::delaunay_flips() {
     return flip_to_delaunay<Rule::unfold>(Eigen::VectorXd::Zero(vertex_count_));
 }
 
 int IntrinsicTriangulation::make_delaunay(const Eigen::VectorXd& u) {
-    return flip_to_delaunay<Rule::ptolemy>(u);
+    return static_cast<int>(flip_to_delaunay<Rule::ptolemy>(u).size());
 }
 
 template <IntrinsicTriangulation::Rule rule>
-int IntrinsicTriangulation::flip_to_delaunay(const Eigen::VectorXd& u) {
+std::vector<EdgeFlip> IntrinsicTriangulation::flip_to_delaunay(const Eigen::VectorXd& u) {
     const auto measure = [&](int triangle) {
         const std::array<double, 3> cosines = triangle_cosines(log_lengths(triangle, u));
         std::copy(cosines.begin(), cosines.end(), cosines_.begin() + 3 * triangle);
@@ -122,11 +122,11 @@ int IntrinsicTriangulation::flip_to_delaunay(const Eigen::VectorXd& u) {
     for (int h = halfedge_count() - 1; h >= 0; --h)
         if (h > twins_[h] && violates(h)) waiting.push_back(h);
 
-    int flips = 0;
+    std::vector<EdgeFlip> flips;
     // The algorithm ends by itself; the cap only guards against rounding and leaves a triangulation that is still
     // valid.
-    const long long most_flips = 100LL * halfedge_count();
-    while (!waiting.empty() && flips < most_flips) {
+    const auto most_flips = 100 * static_cast<std::size_t>(halfedge_count());
+    while (!waiting.empty() && flips.size() < most_flips) {
         const int h = waiting.back();
         waiting.pop_back();
         if (!violates(h)) continue;
@@ -144,7 +144,7 @@ int IntrinsicTriangulation::flip_to_delaunay(const Eigen::VectorXd& u) {
             measure(twin / 3);
             continue;
         }
-        ++flips;
+        flips.push_back({h, twin, old_log_length});
         for (const int side : {next(h), previous(h), next(twin), previous(twin)})
             if (violates(side)) waiting.push_back(side);
     }

@@ -25,6 +25,12 @@ TriangleAngles triangle_angles(const std::array<double, 3>& log_lengths);
 /// beyond ±1 too, where lengths violate the triangle inequality.
 std::array<double, 3> triangle_cosines(const std::array<double, 3>& log_lengths);
 
+/// A flip of an edge, as it must be known to be undone: its half-edges, and the logarithm of its length before.
+struct EdgeFlip {
+    int halfedge, twin;
+    double log_length;
+};
+
 /// A triangulation of a surface that knows lengths only, so that its edges can be flipped without moving the surface.
 ///
 /// Half-edge h = 3t + k is edge k of triangle t, from tail(h) to head(h), the triangle on its left. Edges may join a
@@ -64,7 +70,9 @@ class IntrinsicTriangulation {
 
     /// Flips edges, new lengths measured by unfolding the two triangles, until the triangulation is Delaunay: the
     /// surface stays what it is. @return the number of flips
-    int make_delaunay();
+    int make_delaunay() { return static_cast<int>(delaunay_flips().size()); }
+    /// The same, every flip in its order.
+    std::vector<EdgeFlip> delaunay_flips();
 
     /// Flips edges until the metric scaled by u is Delaunay; new lengths by Ptolemy's relation, which commutes with the
     /// scaling, so that the discrete conformal class stays what it is. Lengths need not satisfy the triangle
@@ -81,6 +89,11 @@ class IntrinsicTriangulation {
     /// @pre two different triangles meet there
     void flip(int h, double log_length);
 
+    /// Puts the edge of the last flip that is not yet undone back, half-edges and all.
+    void undo(const EdgeFlip& last) {
+        for (int turn = 0; turn < 3; ++turn) flip(last.halfedge, last.log_length);
+    }
+
     /// The triangulation less the triangles at a vertex, whose other edges then are boundary.
     IntrinsicTriangulation without(int vertex) const;
 
@@ -92,7 +105,7 @@ class IntrinsicTriangulation {
   private:
     enum class Rule { unfold, ptolemy };
     template <Rule rule>
-    int flip_to_delaunay(const Eigen::VectorXd& u);
+    std::vector<EdgeFlip> flip_to_delaunay(const Eigen::VectorXd& u);
     IntrinsicTriangulation() = default;
     double flipped_log_length(int h, Rule rule) const;
     void glue(int h, int twin);
