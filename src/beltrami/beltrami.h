@@ -29,6 +29,11 @@
 #include <beltrami/differentials/zeros_and_poles.h>
 #include <beltrami/evening/even_dilatation.h>
 #include <beltrami/flow/beltrami_flow.h>
+#include <beltrami/forms/flat_torus.h>
+#include <beltrami/forms/harmonic_basis.h>
+#include <beltrami/forms/homology.h>
+#include <beltrami/forms/period_matrix.h>
+#include <beltrami/forms/torus_marking.h>
 #include <beltrami/generate/double_torus.h>
 #include <beltrami/generate/grids.h>
 #include <beltrami/generate/round_domains.h>
@@ -76,6 +81,7 @@
 #include <beltrami/teichmuller/extremal_map.h>
 #include <beltrami/teichmuller/extremal_solver.h>
 #include <beltrami/teichmuller/least_dilatation.h>
+#include <beltrami/teichmuller/torus_map.h>
 #include <beltrami/unfold/fold_free.h>
 #include <beltrami/uniformize/flatten.h>
 #include <beltrami/uniformize/sphere_map.h>
