@@ -4,13 +4,11 @@
 #include <cmath>
 #include <utility>
 
+#include <beltrami/plane/polygon.h>
+
 namespace beltrami {
 
 namespace {
-
-double cross(Complex a, Complex b) {
-    return std::imag(std::conj(a) * b);
-}
 
 /// The quadrilateral of an edge i→j that has become l→k, laid out in units of |lk| with l at 0 and k at 1.
 struct Quadrilateral {
@@ -36,8 +34,8 @@ struct Quadrilateral {
 
 /// Weights of a triangle's corners; what rounding leaves outside is put on the border.
 std::array<double, 3> weights_in(Complex a, Complex b, Complex c, Complex point) {
-    std::array<double, 3> w{std::max(0.0, cross(c - b, point - b)), std::max(0.0, cross(a - c, point - c)),
-                            std::max(0.0, cross(b - a, point - a))};
+    std::array<double, 3> w{std::max(0.0, signed_area(b, c, point)), std::max(0.0, signed_area(c, a, point)),
+                            std::max(0.0, signed_area(a, b, point))};
     const double sum = w[0] + w[1] + w[2];
     for (double& weight : w) weight /= sum;
     return w;
