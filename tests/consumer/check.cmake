@@ -29,5 +29,7 @@ execute_process(COMMAND pkg-config --static --cflags --libs beltrami
     OUTPUT_VARIABLE flags COMMAND_ERROR_IS_FATAL ANY OUTPUT_STRIP_TRAILING_WHITESPACE)
 separate_arguments(flags UNIX_COMMAND "${flags}")
 step(c++ -std=c++20 ${SOURCE}/main.cpp ${flags} -o ${WORK}/by_pkg_config)
+cmake_path(GET folder PARENT_PATH libraries)
+set(ENV{LD_LIBRARY_PATH} ${libraries})  # for a shared one
 step(${WORK}/by_pkg_config)
 step(c++ -std=c++20 -fsyntax-only ${WORK}/headers.cpp ${flags})
