@@ -11,7 +11,8 @@ function drawHistogram() {
     const narrow = $("histogram-section").clientWidth < 440, row = narrow ? 92 : 76, left = 4, extra = narrow ? 15 : 0;
     const { svg, width } = chart("histogram", maps.length * row + 40);
     const end = data.histogram_end, right = width - 12, at = m => left + (right - left) * m / end;
-    maps.forEach(({ name, histogram }, i) => {
+    maps.forEach((map, i) => {
+        const { name } = map, histogram = map.histogram[state.shares];
         const base = (i + 1) * row, peak = Math.max(...histogram.bins, 1e-12), n = histogram.bins.length;
         const group = svgElement(svg, "g", { class: "bins" });
         histogram.bins.forEach((share, j) => {
@@ -35,10 +36,11 @@ function drawHistogram() {
         svgElement(svg, "text", { x: at(m), y: low + 18, "text-anchor": m ? "middle" : "start" }, m ? text : "0");
     }
     svgElement(svg, "text", { x: (left + right) / 2, y: low + 36, "text-anchor": "middle" }, "|μ|");
-    $("histogram-note").textContent = "Share of the source's area by |μ|" +
+    const of = state.shares === "area" ? "the source's area" : "the faces";
+    $("histogram-note").textContent = `Share of ${of} by |μ|` +
         (maps.length > 1 ? "; each row is scaled to its own peak." : ".");
-    const shares = maps.map(map => `${map.name}, 99 % below ${show(map.p99)}`);
-    svg.setAttribute("aria-label", "Histogram of |μ| by area: " + shares.join("; "));
+    const shares = maps.map(map => `${map.name}, 99 % of the area below ${show(map.p99)}`);
+    svg.setAttribute("aria-label", `Histogram of |μ|, share of ${of}: ` + shares.join("; "));
 }
 
 function drawBounds() {

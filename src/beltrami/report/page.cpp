@@ -110,16 +110,17 @@ double round_up(double value) {
     return 10.0 * power;
 }
 
-/// Shares of the area by |μ|, over all faces of the mesh.
-Json histogram(const Eigen::VectorXd& abs_mu, const Eigen::VectorXd& areas, double end) {
+/// Shares by |μ| of all faces of the mesh.
+/// @param weights of the faces: their areas, or one for each
+Json histogram(const Eigen::VectorXd& abs_mu, const Eigen::VectorXd& weights, double end) {
     std::vector<double> bins(histogram_bins, 0.0);
     double above = 0.0;
     double flipped = 0.0;
     double undefined = 0.0;
-    const double total = areas.sum() > 0.0 ? areas.sum() : 1.0;
+    const double total = weights.sum() > 0.0 ? weights.sum() : 1.0;
     for (Eigen::Index face = 0; face < abs_mu.size(); ++face) {
         const double value = abs_mu[face];
-        const double share = areas[face] / total;
+        const double share = weights[face] / total;
         if (std::isnan(value)) {
             undefined += share;
         } else if (value > 1.0) {
@@ -232,7 +233,8 @@ std::string render_page(const PageContent& content) {
         for (const int face : drawing.faces) values.add(static_cast<float>(map.abs_mu[face]));
         entry["abs_mu"] = values.finish();
         entry["p99"] = weighted_quantile(map.abs_mu, areas, 0.99);
-        entry["histogram"] = histogram(map.abs_mu, areas, end);
+        entry["histogram"] = {{"area", histogram(map.abs_mu, areas, end)},
+                              {"faces", histogram(map.abs_mu, Eigen::VectorXd::Ones(areas.size()), end)}};
         data["maps"].push_back(std::move(entry));
     }
 

@@ -9,7 +9,7 @@ function chooseMap(index) {
         input.disabled = !state.texture;
         input.parentNode.classList.toggle("off", !state.texture);
     }
-    const { source = {} } = record, facts = [], { histogram, surface: { planar } } = state.map;
+    const { source = {} } = record, facts = [], { histogram: { area: histogram }, surface: { planar } } = state.map;
     if (isNumber(source.vertices)) facts.push(count(source.vertices, "vertex", "vertices"));
     facts.push(count(data.faces, "face"));
     if (source.components > 1) facts.push(count(source.components, "component"));
@@ -53,7 +53,7 @@ function updateLegend() {
         part.style.marginRight = "18px";
         return part;
     };
-    const { flipped, undefined: none } = state.map.histogram;
+    const { flipped, undefined: none } = state.map.histogram.area;
     $("swatches").replaceChildren(...(flipped ? [swatch("--flip", `flipped (${percent(flipped)} of the area)`)] : []),
                                   ...(none ? [swatch("--void", `undefined (${percent(none)} of the area)`)] : []));
 }
@@ -71,6 +71,10 @@ function connect() {
     for (const input of document.querySelectorAll("input[name=overlay]")) {
         input.checked = input.value === state.overlay;
         input.onchange = () => { state.overlay = input.value; redraw(); };
+    }
+    for (const input of document.querySelectorAll("input[name=shares]")) {
+        input.checked = input.value === state.shares;
+        input.onchange = () => { state.shares = input.value; drawHistogram(); };
     }
     $("range").oninput = () => { setTop(10 ** +$("range").value); sourceView.schedule(); imageView.schedule(); };
     $("fit").onclick = () => { setTop(bestTop([state.map])); redraw(); };
@@ -103,6 +107,7 @@ function selfTest() {  // page.html#selftest: every map with every overlay, turn
             hover(t);
         }
     }
+    for (state.shares of ["faces", "area"]) drawHistogram();
     for (const view of [sourceView, imageView]) {
         view.move(0.1, 0.1, true);
         view.zoomBy(2);

@@ -52,7 +52,7 @@ for (let i = 0; i < UNDEFINED; ++i) palette.set(viridisAt(i / (UNDEFINED - 1)), 
 palette.set([154, 160, 168], 3 * UNDEFINED);
 palette.set([255, 0, 212], 3 * FLIPPED);
 
-const state = { map: maps[0], overlay: "none", top: 1, levels: new Uint8Array(triangleCount), texture: null };
+const state = { map: maps[0], overlay: "none", shares: "area", top: 1, levels: new Uint8Array(triangleCount), texture: null };
 
 function updateLevels() {
     const { map: { absMu }, levels, top } = state;

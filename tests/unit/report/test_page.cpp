@@ -153,7 +153,7 @@ TEST(Page, ArraysHaveTheSizesOfTheMesh) {
         EXPECT_EQ(decode_floats(map["coordinates"]).size(), 72U);
         EXPECT_EQ(decode_floats(map["abs_mu"]), std::vector<float>(50, 0.3F));
         EXPECT_NEAR(map["p99"], 0.3, 1e-15);
-        EXPECT_NEAR(histogram_total(map["histogram"]), 1.0, 1e-12);
+        for (const char* of : {"area", "faces"}) EXPECT_NEAR(histogram_total(map["histogram"][of]), 1.0, 1e-12);
     }
     EXPECT_TRUE(data["history"]["change"][2].is_null());
     EXPECT_EQ(data["history"]["largest"][0], 1.7);
@@ -185,7 +185,10 @@ TEST(Page, UndefinedAndFlippedFacesAreCountedApart) {
     const auto points = decode_floats(data["maps"][0]["coordinates"]);
     EXPECT_TRUE(std::isnan(points[14]));
     EXPECT_EQ(points[0], -1.0F);
-    const Json& histogram = data["maps"][0]["histogram"];
+    const Json& histogram = data["maps"][0]["histogram"]["area"];
+    const Json& of_faces = data["maps"][0]["histogram"]["faces"];
+    EXPECT_NEAR(of_faces["undefined"], 1.0 / mesh.face_count(), 1e-12);
+    EXPECT_NEAR(of_faces["flipped"], 2.0 / mesh.face_count(), 1e-12);
     const auto area = [&](int face) { return face_vector_area(mesh, face).norm(); };
     double total = 0.0;
     for (int face = 0; face < mesh.face_count(); ++face) total += area(face);
@@ -235,7 +238,7 @@ TEST(Page, LargeMeshIsCoarsenedForDrawingOnly) {
     EXPECT_EQ(decode_words(data["face"]).size(), triangles.size() / 3);
     // All faces are in the histogram: two bins of about half the area each.
     double tall = 0.0;
-    for (const double share : data["maps"][0]["histogram"]["bins"]) tall += share > 0.49 ? share : 0.0;
+    for (const double share : data["maps"][0]["histogram"]["area"]["bins"]) tall += share > 0.49 ? share : 0.0;
     EXPECT_NEAR(tall, 1.0, 1e-12);
 }
 
