@@ -4,9 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <queue>
 
-#include <beltrami/plane/polygon.h>
+#include <beltrami/mesh/strip.h>
 #include <beltrami/solve/laplacian.h>
 
 namespace beltrami {
@@ -37,81 +36,10 @@ double condenser_energy(const Operators& operators, const std::vector<int>& at_z
     return form.energy(u);
 }
 
-/// The energy of the harmonic function on a ring that grows by 1 around: steps at the edges of a chain from loop to
-/// loop. Corners on the left of the chain carry the vertex' value plus 1.
+/// The energy of the harmonic function on a ring that grows by 1 around.
 double period_energy(const Surface& ring, const Operators& operators, int& factorizations) {
-    const Topology& topology = ring.topology;
-    const int vertices = ring.mesh.vertex_count();
     const FaceList& faces = ring.mesh.faces;
-    // A chain of vertices between the loops, by breadth.
-    std::vector<int> before(static_cast<std::size_t>(vertices), -2);
-    std::vector<std::vector<int>> next(static_cast<std::size_t>(vertices));
-    for (const auto& [a, b] : topology.edges) {
-        next[a].push_back(b);
-        next[b].push_back(a);
-    }
-    std::queue<int> queue;
-    for (const int v : topology.boundary_loops[0]) {
-        before[v] = -1;
-        queue.push(v);
-    }
-    std::vector<char> goal(static_cast<std::size_t>(vertices), 0);
-    for (const int v : topology.boundary_loops[1]) goal[v] = 1;
-    std::vector<int> chain;
-    while (!queue.empty() && chain.empty()) {
-        const int v = queue.front();
-        queue.pop();
-        for (const int w : next[v]) {
-            if (before[w] != -2) continue;
-            before[w] = v;
-            queue.push(w);
-            if (!goal[w]) continue;
-            for (int at = w; at >= 0; at = before[at]) chain.push_back(at);
-            break;
-        }
-    }
-    // Corners left of the chain: at every vertex of it the fan of faces on the left of the edges that come and go. The
-    // ends lie on the boundary, where the fan ends by itself.
-    std::vector<double> offset(static_cast<std::size_t>(faces.corner_count()), 0.0);
-    const auto cut = [&](int a, int b) {
-        const auto at = std::lower_bound(topology.edges.begin(), topology.edges.end(),
-                                         std::array<int, 2>{std::min(a, b), std::max(a, b)});
-        return static_cast<int>(at - topology.edges.begin());
-    };
-    std::vector<int> face_of(static_cast<std::size_t>(faces.corner_count()));
-    for (int f = 0; f < faces.size(); ++f)
-        for (int c = faces.first_corner(f); c < faces.first_corner(f) + faces.degree(f); ++c) face_of[c] = f;
-    std::vector<char> is_cut(static_cast<std::size_t>(topology.edge_count()), 0);
-    for (std::size_t i = 0; i + 1 < chain.size(); ++i) is_cut[cut(chain[i], chain[i + 1])] = 1;
-    std::vector<std::vector<int>> corners_at(static_cast<std::size_t>(vertices));
-    for (int c = 0; c < faces.corner_count(); ++c) corners_at[faces.vertices()[c]].push_back(c);
-    const auto left_face = [&](int a, int b) {  // of the directed edge
-        const int e = cut(a, b);
-        return a < b ? topology.edge_faces[e][0] : topology.edge_faces[e][1];
-    };
-    for (std::size_t i = 0; i < chain.size(); ++i) {
-        const int v = chain[i];
-        std::vector<int> waiting;
-        const auto visit = [&](int f) {
-            if (f < 0) return;
-            for (int c = faces.first_corner(f); c < faces.first_corner(f) + faces.degree(f); ++c)
-                if (faces.vertices()[c] == v && offset[c] == 0) {
-                    offset[c] = 1;
-                    waiting.push_back(c);
-                }
-        };
-        if (i + 1 < chain.size()) visit(left_face(v, chain[i + 1]));
-        if (i > 0) visit(left_face(chain[i - 1], v));
-        while (!waiting.empty()) {
-            const int c = waiting.back(), f = face_of[c], n = faces.degree(f), first = faces.first_corner(f);
-            waiting.pop_back();
-            for (const int e : {topology.corner_edges[c], topology.corner_edges[first + (c - first + n - 1) % n]}) {
-                if (is_cut[e]) continue;
-                for (const int g : topology.edge_faces[e])
-                    if (g != f) visit(g);
-            }
-        }
-    }
+    const std::vector<double> offset = jumps_across_strip(ring.mesh, ring.topology, 0, 1);
     std::vector<char> held(static_cast<std::size_t>(operators.vertex_count), 0);
     held[operators.vertices.front()] = 1;
     const Laplacian form(operators, held);

@@ -6,7 +6,7 @@
 #include <beltrami/base/error.h>
 #include <beltrami/certificate/branched_cover.h>
 #include <beltrami/certificate/modulus.h>
-#include <beltrami/linear/decomposition.h>
+#include <beltrami/certificate/pair_iteration.h>
 #include <beltrami/mesh/subdivide.h>
 #include <beltrami/meshing/polygon_fill.h>
 #include <beltrami/operators/distortion.h>
@@ -23,7 +23,7 @@ constexpr int kLeastFill = 400;
 
 /// ∫ u dv along the boundary: of every edge of the image (u_a + u_b)/2 (v_b − v_a), with v at the places that its ends
 /// come from, signs included.
-struct BoundaryPairing {
+struct BoundaryPairing final : Pairing {
     struct End {
         int image, from, to;  ///< vertices
         double t;
@@ -32,8 +32,7 @@ struct BoundaryPairing {
     std::vector<std::array<End, 2>> edges;
     int source_count, image_count;
 
-    /// W v: what u is paired with.
-    Eigen::VectorXd with_v(const Eigen::VectorXd& v) const {
+    Eigen::VectorXd with_v(const Eigen::VectorXd& v) const override {
         Eigen::VectorXd result = Eigen::VectorXd::Zero(image_count);
         const auto at = [&](const End& end) {
             return (1 - end.t) * end.from_sign * v[end.from] + end.t * end.to_sign * v[end.to];
@@ -45,8 +44,7 @@ struct BoundaryPairing {
         }
         return result;
     }
-    /// Wᵀ u.
-    Eigen::VectorXd with_u(const Eigen::VectorXd& u) const {
+    Eigen::VectorXd with_u(const Eigen::VectorXd& u) const override {
         Eigen::VectorXd result = Eigen::VectorXd::Zero(source_count);
         const auto add = [&](const End& end, double value) {
             result[end.from] += (1 - end.t) * end.from_sign * value;
@@ -58,6 +56,12 @@ struct BoundaryPairing {
             add(a, -mean);
         }
         return result;
+    }
+    Eigen::VectorXd start() const override {
+        Eigen::VectorXd u = Eigen::VectorXd::Zero(image_count);
+        double turn = 0;
+        for (const auto& edge : edges) u[edge[0].image] = std::sin(turn += 2.399963);
+        return u;
     }
 };
 
@@ -85,94 +89,32 @@ BoundaryPairing pairing_of(const Surface& source, const BoundaryImage& image, co
     return result;
 }
 
-/// What has to be held for a Dirichlet form to be definite: a vertex, or all where the functions branch.
-std::vector<char> held_vertices_of(const Operators& operators, const std::vector<int>& branches) {
-    std::vector<char> held(static_cast<std::size_t>(operators.vertex_count), 0);
-    for (const int v : branches) held[v] = 1;
-    if (branches.empty()) held[operators.vertices.front()] = 1;
-    return held;
-}
-
-/// Lanczos' iteration for the largest eigenvalue of L_S⁻¹ Wᵀ L_T⁻¹ W, in the energy product of L_S.
-class Lanczos {
+/// Functions of the vertices, up to sign or not.
+class VertexEnergy final : public PairEnergy {
   public:
-    Lanczos(const Laplacian& source, const Laplacian& image, const BoundaryPairing& pairing)
-        : source_(source), image_(image), pairing_(pairing) {}
-
-    /// The Ritz vector v after as many steps as needed.
-    Eigen::VectorXd run(const PairBoundOptions& options) {
-        start();
-        while (static_cast<int>(basis_.size()) < options.most_steps && step())
-            if (const std::size_t n = values_.size();
-                n > 4 && values_[n - 1] <= (1 + options.tolerance) * values_[n - 4])
-                break;
-        return ritz();
-    }
-    int steps() const { return static_cast<int>(values_.size()); }
+    /// @param held what has to be for the form to be definite
+    VertexEnergy(const Operators& operators, const std::vector<int>& held, const std::vector<signed char>& signs)
+        : form_(operators, held_flags(operators, held), 1, signs) {}
+    Eigen::VectorXd solve(const Eigen::VectorXd& force) const override { return form_.solve(force); }
+    Eigen::VectorXd apply(const Eigen::VectorXd& u) const override { return form_.apply(u); }
+    double energy(const Eigen::VectorXd& u) const override { return form_.energy(u); }
+    int factorization_count() const override { return form_.factorization_count(); }
 
   private:
-    /// v that pairs with u = a function of the boundary that no symmetry makes orthogonal to the wanted one.
-    void start() {
-        Eigen::VectorXd u = Eigen::VectorXd::Zero(pairing_.image_count);
-        double turn = 0;
-        for (const auto& edge : pairing_.edges) u[edge[0].image] = std::sin(turn += 2.399963);
-        // Two rounds of the power iteration smooth it.
-        Eigen::VectorXd v =
-            source_.solve(pairing_.with_u(image_.solve(pairing_.with_v(source_.solve(pairing_.with_u(u))))));
-        push(v);
+    static std::vector<char> held_flags(const Operators& operators, const std::vector<int>& held) {
+        std::vector<char> flags(static_cast<std::size_t>(operators.vertex_count), 0);
+        for (const int v : held) flags[v] = 1;
+        return flags;
     }
-    void push(const Eigen::VectorXd& v) {
-        Eigen::VectorXd applied = source_.apply(v);
-        const double size = std::sqrt(std::max(0.0, v.dot(applied)));
-        if (!(size > 0) || !std::isfinite(size)) return;
-        basis_.push_back(v / size);
-        applied_.push_back(applied / size);
-    }
-    /// @return false where the space is exhausted
-    bool step() {
-        const std::size_t n = values_.size();
-        if (n >= basis_.size()) return false;
-        Eigen::VectorXd next = source_.solve(pairing_.with_u(image_.solve(pairing_.with_v(basis_[n]))));
-        double diagonal = 0;
-        for (int pass = 0; pass < 2; ++pass)  // twice: orthogonal to rounding
-            for (std::size_t i = basis_.size(); i-- > 0;) {
-                const double part = next.dot(applied_[i]);
-                if (i == n) diagonal += part;
-                next -= part * basis_[i];
-            }
-        diagonal_.push_back(diagonal);
-        Eigen::VectorXd applied = source_.apply(next);
-        const double size = std::sqrt(std::max(0.0, next.dot(applied)));
-        beside_.push_back(size);
-        values_.push_back(eigen().values[static_cast<Eigen::Index>(n)]);
-        if (!(size > 1e-12 * values_[0])) return false;
-        basis_.push_back(next / size);
-        applied_.push_back(applied / size);
-        return true;
-    }
-    SymmetricEigen eigen() const {
-        const auto n = static_cast<Eigen::Index>(diagonal_.size());
-        Eigen::MatrixXd T = Eigen::MatrixXd::Zero(n, n);
-        for (Eigen::Index i = 0; i < n; ++i) {
-            T(i, i) = diagonal_[i];
-            if (i > 0) T(i, i - 1) = beside_[i - 1];
-        }
-        return symmetric_eigen(T);
-    }
-    Eigen::VectorXd ritz() const {
-        Eigen::VectorXd v = Eigen::VectorXd::Zero(pairing_.source_count);
-        if (diagonal_.empty()) return v;
-        const SymmetricEigen all = eigen();
-        const Eigen::Index n = all.values.size();
-        for (Eigen::Index i = 0; i < n; ++i) v += all.vectors(i, n - 1) * basis_[i];
-        return v;
-    }
-
-    const Laplacian &source_, &image_;
-    const BoundaryPairing& pairing_;
-    std::vector<Eigen::VectorXd> basis_, applied_;
-    std::vector<double> diagonal_, beside_, values_;
+    Laplacian form_;
 };
+
+PairBound pair_of_vertex_functions(const Surface& source, const BoundaryImage& image,
+                                   const std::vector<int>& held_in_source, const std::vector<int>& held_in_image,
+                                   const std::vector<signed char>& signs, const PairBoundOptions& options) {
+    return best_pair(VertexEnergy(source.operators, held_in_source, signs),
+                     VertexEnergy(image.operators, held_in_image, signs), pairing_of(source, image, signs), options);
+}
 
 /// Midpoints on all edges.
 void subdivide(Mesh& mesh, std::vector<BoundaryImage::Place>& loop) {
@@ -265,21 +207,15 @@ double quadrilateral_bound(const Surface& source, const BoundaryImage& image, co
 
 PairBound pair_bound(const Surface& source, const BoundaryImage& image, const std::vector<int>& branches,
                      const PairBoundOptions& options) {
-    std::vector<signed char> signs;
-    if (!branches.empty()) signs = branched_signs(source, branches);
-    const Laplacian of_source(source.operators, held_vertices_of(source.operators, branches), 1, signs),
-        of_image(image.operators, held_vertices_of(image.operators, branches), 1, signs);
-    const BoundaryPairing pairing = pairing_of(source, image, signs);
-    PairBound result;
-    result.factorizations = of_source.factorization_count() + of_image.factorization_count();
-    Lanczos lanczos(of_source, of_image, pairing);
-    result.v = lanczos.run(options);
-    result.steps = lanczos.steps();
-    const Eigen::VectorXd paired = pairing.with_v(result.v);
-    result.u = of_image.solve(paired);
-    const double pairs = result.u.dot(paired), energies = of_image.energy(result.u) * of_source.energy(result.v);
-    if (energies > 0 && std::isfinite(energies)) result.K = std::max(1.0, pairs * pairs / energies);
-    return result;
+    if (branches.empty())
+        return pair_of_vertex_functions(source, image, {source.operators.vertices.front()},
+                                        {image.operators.vertices.front()}, {}, options);
+    return pair_of_vertex_functions(source, image, branches, branches, branched_signs(source, branches), options);
+}
+
+PairBound pair_bound_up_to_sign(const Surface& source, const BoundaryImage& image,
+                                const std::vector<signed char>& signs, const PairBoundOptions& options) {
+    return pair_of_vertex_functions(source, image, {}, {}, signs, options);
 }
 
 }  // namespace beltrami

@@ -72,4 +72,11 @@ double quadrilateral_bound(const Surface& source, const BoundaryImage& image, co
 PairBound pair_bound(const Surface& source, const BoundaryImage& image, const std::vector<int>& branches = {},
                      const PairBoundOptions& options = {});
 
+/// The same for functions up to sign that change it around some holes: every map lifts to the double covers that
+/// belong to them, as its homotopy class says.
+/// @param image of the same faces, under a map of the class
+/// @param signs beside operators.vertices, of functions of which no constant is one
+PairBound pair_bound_up_to_sign(const Surface& source, const BoundaryImage& image,
+                                const std::vector<signed char>& signs, const PairBoundOptions& options = {});
+
 }  // namespace beltrami

@@ -6,6 +6,7 @@
 #include <beltrami/base/error.h>
 #include <beltrami/certificate/edge_corner_bound.h>
 #include <beltrami/certificate/modulus.h>
+#include <beltrami/certificate/period_pair.h>
 #include <beltrami/certificate/refined_problem.h>
 #include <beltrami/constraints/boundary_feasibility.h>
 #include <beltrami/mesh/boundary_position.h>
@@ -60,17 +61,22 @@ double moduli_bound(const Surface& source, const Eigen::VectorXcd& map, int& fac
 double best_pair(const Surface& source, const BoundaryCondition& boundary, const Eigen::VectorXcd& map,
                  const PairBoundOptions& options, int& factorizations) {
     double best = 1;
-    const auto try_image = [&](const std::optional<BoundaryImage>& image, const std::vector<int>& branches) {
-        if (!image) return;
-        const PairBound bound = pair_bound(source, *image, branches, options);
+    const auto take_bound = [&](const PairBound& bound) {
         factorizations += bound.factorizations;
         best = std::max(best, bound.K);
     };
+    const auto try_image = [&](const std::optional<BoundaryImage>& image, const std::vector<int>& branches) {
+        if (image) take_bound(pair_bound(source, *image, branches, options));
+    };
     const std::optional<BoundaryImage> own = image_under(source, map);
+    if (source.topology.boundary_loops.size() > 1) {
+        if (own) take_bound(period_pair_bound(source, *own, options));
+        return best;
+    }
     try_image(own, {});
     try_image(filled_image(source, map), {});
     const std::vector<int> pins = inner_pins(source, boundary);
-    if (!pins.empty() && source.topology.boundary_loops.size() == 1) try_image(own, pins);
+    if (!pins.empty()) try_image(own, pins);
     return best;
 }
 

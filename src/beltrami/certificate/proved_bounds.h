@@ -35,8 +35,9 @@ struct ProvedBounds {
 /// - "edge_corner": edge_corner_bound.h, for nothing;
 /// - "moduli": a disk onto a rectangle, four corners to four corners, and rings (modulus.h);
 /// - "pair": pair_bound.h, also on the double cover branched at the pins of a disk. The image is meshed by
-///   @p map where that folds nothing, else by a triangulation of its polygon.
-/// On surfaces with holes all hold for every homotopy class.
+///   @p map where that folds nothing, else by a triangulation of its polygon. On surfaces with holes period_pair.h,
+///   where the map folds nothing.
+/// On surfaces with holes "edge_corner" and "moduli" hold for every homotopy class, "pair" for that of the map.
 /// @param map #V a map with these boundary values, with folds or without
 /// @pre the whole boundary is prescribed
 ProvedBounds proved_bounds(const Surface& source, const BoundaryCondition& boundary, const Eigen::VectorXcd& map,

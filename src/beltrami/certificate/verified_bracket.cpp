@@ -8,6 +8,7 @@
 #include <beltrami/certificate/edge_corner_bound.h>
 #include <beltrami/certificate/edge_split.h>
 #include <beltrami/certificate/one_sided.h>
+#include <beltrami/certificate/period_pair.h>
 #include <beltrami/constraints/inner_constraints.h>
 #include <beltrami/operators/distortion.h>
 
@@ -130,9 +131,11 @@ class Bracketing {
             split_edges(level_.surface, level_.boundary,
                         std::vector<char>(static_cast<std::size_t>(level_.surface.topology.edge_count()), 1));
         const QuadraticMap nodes = prolonged(space, fine).head(fine.surface.mesh.vertex_count());
+        const bool has_holes = level_.surface.topology.boundary_loops.size() > 1;
         const auto take = [&](const std::optional<BoundaryImage>& image, const std::vector<int>& branches) {
             if (!image) return;
-            const PairBound bound = pair_bound(fine.surface, *image, branches, options_.pair);
+            const PairBound bound = has_holes ? period_pair_bound(fine.surface, *image, options_.pair)
+                                              : pair_bound(fine.surface, *image, branches, options_.pair);
             factorizations_ += bound.factorizations;
             pair_ = std::max(pair_, bound.K);
         };
@@ -141,7 +144,7 @@ class Bracketing {
         std::vector<int> pins;
         for (const int v : level_.boundary.vertices)
             if (!level_.surface.topology.on_boundary[v]) pins.push_back(v);
-        if (!pins.empty() && level_.surface.topology.boundary_loops.size() == 1) take(own, pins);
+        if (!pins.empty() && !has_holes) take(own, pins);
         result_K_lower_ = std::max(result_K_lower_, pair_);
     }
 

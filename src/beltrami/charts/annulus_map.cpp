@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include <beltrami/mesh/strip.h>
 #include <beltrami/solve/beltrami_solver.h>
 #include <beltrami/solve/laplacian.h>
 
@@ -18,60 +19,6 @@ Eigen::VectorXd potential(const Surface& surface, int outer_loop) {
     for (int l = 0; l < 2; ++l)
         for (const int v : surface.topology.boundary_loops[l]) boundary.pin(v, l == outer_loop ? 0.0 : 1.0);
     return harmonic_map(surface, boundary).real();
-}
-
-/// A closed 1-form that is 0 but on the edges crossed by a strip of faces from one loop to the other, as the values of
-/// a function at each face corner (#corners): neighbouring faces differ by the constant 1 across the strip.
-std::vector<double> jumps_across_strip(const Surface& surface, int outer_loop) {
-    const Topology& topology = surface.topology;
-    const FaceList& faces = surface.mesh.faces;
-    std::vector<char> on_outer(surface.mesh.vertex_count(), 0);
-    for (const int v : topology.boundary_loops[outer_loop]) on_outer[v] = 1;
-    // Breadth first from all faces along the outer loop to the first one along the other.
-    std::vector<int> entry(faces.size(), -1);  // corner whose edge the search came in by
-    std::vector<int> queue;
-    std::vector<int> corner_faces(faces.corner_count());
-    for (int f = 0; f < faces.size(); ++f)
-        for (int c = faces.first_corner(f); c < faces.first_corner(f) + faces.degree(f); ++c) {
-            corner_faces[c] = f;
-            const auto& sides = topology.edge_faces[topology.corner_edges[c]];
-            if (entry[f] < 0 && (sides[0] < 0 || sides[1] < 0) && on_outer[faces.vertices()[c]]) {
-                entry[f] = c;
-                queue.push_back(f);
-            }
-        }
-    int last = -1;
-    for (std::size_t i = 0; i < queue.size() && last < 0; ++i) {
-        const int f = queue[i];
-        for (int c = faces.first_corner(f); c < faces.first_corner(f) + faces.degree(f) && last < 0; ++c) {
-            if (c == entry[f]) continue;
-            const auto& sides = topology.edge_faces[topology.corner_edges[c]];
-            const int g = sides[0] == f ? sides[1] : sides[0];
-            if (g < 0) {
-                if (!on_outer[faces.vertices()[c]]) last = c;
-            } else if (entry[g] < 0) {
-                for (int d = faces.first_corner(g); d < faces.first_corner(g) + faces.degree(g); ++d)
-                    if (topology.corner_edges[d] == topology.corner_edges[c]) entry[g] = d;
-                queue.push_back(g);
-            }
-        }
-    }
-    // Back along the strip: in each face, corners after the entry edge and up to the exit edge are 1 higher.
-    std::vector<double> jumps(faces.corner_count(), 0.0);
-    for (int exit = last; exit >= 0;) {
-        const int f = corner_faces[exit], first = faces.first_corner(f), degree = faces.degree(f);
-        for (int c = entry[f]; c != exit;) {
-            c = first + (c - first + 1) % degree;
-            jumps[c] = 1;
-        }
-        const auto& sides = topology.edge_faces[topology.corner_edges[entry[f]]];
-        const int g = sides[0] == f ? sides[1] : sides[0];
-        exit = -1;
-        if (g >= 0)
-            for (int d = faces.first_corner(g); d < faces.first_corner(g) + faces.degree(g); ++d)
-                if (topology.corner_edges[d] == topology.corner_edges[entry[f]]) exit = d;
-    }
-    return jumps;
 }
 
 /// The function of period ±1 with the least Dirichlet energy: the solution v of min Σ A |∇(v + jumps)|².
@@ -100,7 +47,7 @@ AnnulusPotentials annulus_potentials(const Surface& surface, int outer_loop) {
     const FaceList& faces = surface.mesh.faces;
     AnnulusPotentials result;
     result.u = potential(surface, outer_loop);
-    const std::vector<double> jumps = jumps_across_strip(surface, outer_loop);
+    const std::vector<double> jumps = jumps_across_strip(surface.mesh, surface.topology, outer_loop, 1 - outer_loop);
     result.v = periodic_harmonic(surface, jumps);
     double turning = 0;
     for (int s = 0; s < operators.sample_count(); ++s) {
