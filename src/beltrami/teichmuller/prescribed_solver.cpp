@@ -265,7 +265,7 @@ void PrescribedSolver::compare_outlines() {
     noise_.reset();
     if (slack_) {
         slack_->K_without = estimate_with(given_boundary_);
-    } else if (problem_.chart_metric()) {
+    } else if (problem_.is_disk_in_space()) {
         noise_ = noise_of_outline(source_, problem_.chart(), boundary_,
                                   [this](const BoundaryCondition& other) { return estimate_with(other); });
     }

@@ -116,10 +116,13 @@ void ExtremalProblem::set_chart(Chart chart) {
     phase_ = phase_of(chart_, boundary_);
 }
 
+bool ExtremalProblem::is_disk_in_space() const {
+    return !source_.in_plane() && source_.topology.boundary_loops.size() == 1 && boundary_.lines.empty() &&
+           boundary_.vertices.size() == source_.topology.boundary_loops[0].size();
+}
+
 bool ExtremalProblem::take_chart_metric() {
-    if (source_.in_plane() || source_.topology.boundary_loops.size() != 1) return false;
-    if (!boundary_.lines.empty() || boundary_.vertices.size() != source_.topology.boundary_loops[0].size())
-        return false;
+    if (!is_disk_in_space()) return false;
     if (!is_round(source_, chart_) || !(unseen_part(source_, chart_) < kMostUnseen)) return false;
     chart_metric_ = std::make_unique<ChartMetric>(source_, chart_);
     chart_ = chart_metric_->chart();

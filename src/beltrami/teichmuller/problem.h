@@ -26,8 +26,10 @@ class ExtremalProblem {
     void set_boundary(const BoundaryCondition& boundary);
     /// Takes a chart; phase() is known from then on.
     void set_chart(Chart chart);
-    /// Takes the plane of the chart that was set as the metric of the iteration, where that is right: a disk in space
-    /// or with a metric of its own, only its boundary prescribed, whose chart turns over next to nothing of itself.
+    /// Whether the source is a disk in space, or with a metric of its own, of which only the boundary is prescribed.
+    bool is_disk_in_space() const;
+    /// Takes the plane of the chart that was set as the metric of the iteration, where that is right: of a disk in
+    /// space whose chart turns over next to nothing of itself.
     /// @return whether it has
     bool take_chart_metric();
     /// Takes where φ may be singular, in the chart that was set: the c-step is known from then on.
