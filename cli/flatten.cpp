@@ -36,7 +36,7 @@ class Flatten final : public Command {
         const double start = seconds();
         const Surface source(std::move(input.mesh));
         add_findings(source.findings, record.warnings);
-        record.source = source_record(source);
+        record.source = source_record(source, input.unit);
         SolveRecord solve;
         Eigen::VectorXcd map;
         if (disk_) {

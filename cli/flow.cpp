@@ -70,7 +70,7 @@ class Flow final : public Command {
         const double start = seconds();
         const Surface source = metric_.surface_of(std::move(input_.mesh));
         add_findings(source.findings, record.warnings);
-        record.source = source_record(source);
+        record.source = source_record(source, input_.unit);
         const Eigen::VectorXcd mu = coefficient_.values(source);
         record.flow.emplace();
         record.flow->coefficient = coefficient_.inputs()[0].path;

@@ -84,7 +84,7 @@ class Grid final : public Command {
         const double start = seconds();
         const Surface source(std::move(input.mesh));
         add_findings(source.findings, record.warnings);
-        record.source = source_record(source);
+        record.source = source_record(source, input.unit);
         TargetDomain domain = TargetDomain{TargetCurve::circle(0, 1), {}};
         MethodResult result = map_ == "extremal" ? run_extremal_onto(source, input, start, domain, record)
                                                  : run_conformal(source, start, domain, record);

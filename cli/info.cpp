@@ -31,8 +31,7 @@ class Info final : public Command {
         Record& record = record_;
         record.command = "info";
         MeshInput input = options_.load(mesh_, record.warnings);
-        Mesh& mesh = input.mesh;
-        mesh.positions *= input.unit;  // nothing here needs squares of areas
+        const Mesh& mesh = input.mesh;
         const std::vector<Finding> findings = diagnose(mesh);
         add_findings(findings, record.warnings);
         bool fatal = false, has_topology = true;
@@ -40,20 +39,20 @@ class Info final : public Command {
             fatal = fatal || finding.fatal;
             has_topology = has_topology && !spoils_topology(finding.defect);
         }
-        record.source = has_topology ? source_record(mesh, topology(mesh)) : source_record(mesh);
+        record.source = has_topology ? source_record(mesh, topology(mesh), input.unit) : source_record(mesh);
         const bool mendable = std::any_of(findings.begin(), findings.end(), [](const Finding& finding) {
             return finding.defect == Defect::inconsistent_orientation || finding.defect == Defect::several_components;
         });
         if (mendable)
             if (const std::string hint = options_.hint(mesh_); !hint.empty())
                 record.warnings.push_back({WarningKind::hint, "hint: " + hint});
-        if (common_.may_print()) print(mesh, record.source);
+        if (common_.may_print()) print(mesh, record.source, input.unit);
         finish(record, common_, {}, {});
         return fatal ? exit_code(Cause::bad_mesh) : 0;
     }
 
   private:
-    void print(const Mesh& mesh, const SourceRecord& source) const {
+    void print(const Mesh& mesh, const SourceRecord& source, double unit) const {
         int quads = 0;
         for (int f = 0; f < mesh.face_count(); ++f) quads += mesh.faces.degree(f) == 4;
         fmt::print("{}\n  {}, {} ({}, {}){}{}\n", mesh_, counted(source.vertices, "vertex", "vertices"),
@@ -70,7 +69,7 @@ class Info final : public Command {
                        source.shape->boundary_loops[l].first_vertex);
         const MeshQuality q = quality(mesh);
         fmt::print("  smallest angle {:.2f} degrees, edges from {:.4g} to {:.4g}\n",
-                   q.min_angle * 180 / std::numbers::pi, q.min_edge, q.max_edge);
+                   q.min_angle * 180 / std::numbers::pi, unit * q.min_edge, unit * q.max_edge);
     }
 
     std::string mesh_;

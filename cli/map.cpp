@@ -95,7 +95,7 @@ class Map final : public Command {
         const double start = seconds();
         const Surface source = metric_.surface_of(std::move(input_.mesh));
         add_findings(source.findings, record.warnings);
-        record.source = source_record(source);
+        record.source = source_record(source, input_.unit);
         if (onto_.prescribes()) return run_onto_surface(source, start, record);
         if (onto_.given() || slide_.given()) return run_sliding(source, start, record);
         if (each_component_) return run_components(source, record);

@@ -69,7 +69,7 @@ class Uniformize final : public Command {
         const double start = seconds();
         const Surface source = metric_.surface_of(std::move(input.mesh));
         add_findings(source.findings, record.warnings);
-        record.source = source_record(source);
+        record.source = source_record(source, input.unit);
         check(source);
         if (closed)
             to_sphere(source, input, start);

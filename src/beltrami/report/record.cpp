@@ -8,18 +8,19 @@ SourceRecord source_record(const Mesh& mesh) {
     return {mesh.vertex_count(), mesh.face_count(), {}};
 }
 
-SourceRecord source_record(const Mesh& mesh, const Topology& topology) {
+SourceRecord source_record(const Mesh& mesh, const Topology& topology, double unit) {
     SourceRecord record = source_record(mesh);
     record.shape = {topology.components, topology.genus, {}};
     for (std::size_t l = 0; l < topology.boundary_loops.size(); ++l) {
         const std::vector<int>& loop = topology.boundary_loops[l];
-        record.shape->boundary_loops.push_back({topology.loop_lengths[l], static_cast<int>(loop.size()), loop[0]});
+        record.shape->boundary_loops.push_back(
+            {unit * topology.loop_lengths[l], static_cast<int>(loop.size()), loop[0]});
     }
     return record;
 }
 
-SourceRecord source_record(const Surface& surface) {
-    return source_record(surface.mesh, surface.topology);
+SourceRecord source_record(const Surface& surface, double unit) {
+    return source_record(surface.mesh, surface.topology, unit);
 }
 
 MapRecord map_record(const Distortion& distortion) {

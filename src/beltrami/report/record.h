@@ -183,9 +183,10 @@ struct Record {
     Warnings warnings;
 };
 
+/// @param unit of the mesh's positions, in the file's
 SourceRecord source_record(const Mesh& mesh);
-SourceRecord source_record(const Mesh& mesh, const Topology& topology);
-SourceRecord source_record(const Surface& surface);
+SourceRecord source_record(const Mesh& mesh, const Topology& topology, double unit = 1);
+SourceRecord source_record(const Surface& surface, double unit = 1);
 MapRecord map_record(const Distortion& distortion);
 MapRecord map_record(const ExtremalMap& result);
 /// Dilatation of the map itself; the lower bounds are those of the extremal map of its class.
