@@ -1,7 +1,10 @@
+#include <algorithm>
+
 #include <beltrami/base/error.h>
 #include <beltrami/certificate/proved_bounds.h>
 #include <beltrami/mesh/diagnosis.h>
 #include <beltrami/mesh/planar.h>
+#include <beltrami/mesh/texture_map.h>
 #include <beltrami/mesh/topology.h>
 #include <beltrami/operators/distortion.h>
 
@@ -75,7 +78,9 @@ class Measure final : public Command {
                                                                 : "every face is flipped: the image is mirrored",
                                        {Things::faces, d.flipped}});
         } else {
-            warn_of(WarningKind::flipped_faces, d.flipped, "face is flipped", "faces are flipped", record.warnings);
+            const std::vector<int> other =
+                image_.empty() ? without_mirrored_charts(source, d.flipped, record.warnings) : d.flipped;
+            warn_of(WarningKind::flipped_faces, other, "face is flipped", "faces are flipped", record.warnings);
         }
         warn_of(WarningKind::degenerate_faces, d.degenerate, "face collapses", "faces collapse", record.warnings);
         write_page(common_.report, page_mesh_ ? *page_mesh_ : source, {{"measured", image_positions_, d.face_abs_mu}},
@@ -87,6 +92,35 @@ class Measure final : public Command {
     std::string hint(const Error& error) const override { return options_.hint(error, source_); }
 
   private:
+    /// Says of which charts of the texture every face is flipped; returns the flipped faces of the others.
+    static std::vector<int> without_mirrored_charts(const Mesh& source, const std::vector<int>& flipped,
+                                                    Warnings& warnings) {
+        std::vector<char> is_flipped(static_cast<std::size_t>(source.face_count()), 0);
+        for (const int f : flipped) is_flipped[f] = 1;
+        std::vector<int> mirrored;
+        std::size_t charts = 0;
+        for (const std::vector<int>& chart : texture_charts(source)) {
+            if (!std::all_of(chart.begin(), chart.end(), [&](int f) { return is_flipped[f] != 0; })) continue;
+            ++charts;
+            for (const int f : chart) {
+                mirrored.push_back(f);
+                is_flipped[f] = 0;
+            }
+        }
+        std::sort(mirrored.begin(), mirrored.end());
+        if (charts > 0)
+            warnings.push_back(
+                {WarningKind::flipped_faces,
+                 "every face is flipped of " + counted(charts, "chart of the texture", "charts of the texture") + " (" +
+                     counted(mirrored.size(), "face", "faces") + ", the first is face " + std::to_string(mirrored[0]) +
+                     (charts == 1 ? "): its image is mirrored" : "): their images are mirrored"),
+                 {Things::faces, mirrored}});
+        std::vector<int> other;
+        for (const int f : flipped)
+            if (is_flipped[f]) other.push_back(f);
+        return other;
+    }
+
     static void warn_of(WarningKind kind, const std::vector<int>& faces, const char* one, const char* many,
                         Warnings& warnings) {
         if (faces.empty()) return;

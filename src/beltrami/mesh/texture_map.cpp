@@ -1,9 +1,12 @@
 #include <beltrami/mesh/texture_map.h>
 
 #include <cmath>
+#include <map>
 #include <string>
+#include <tuple>
 #include <vector>
 
+#include <beltrami/base/disjoint_sets.h>
 #include <beltrami/base/error.h>
 
 namespace beltrami {
@@ -30,6 +33,28 @@ Eigen::VectorXcd texture_map(const Mesh& mesh) {
         map[v] = place;
     }
     return map;
+}
+
+std::vector<std::vector<int>> texture_charts(const Mesh& mesh) {
+    const FaceList& faces = mesh.faces;
+    DisjointSets charts(faces.size());
+    std::map<std::tuple<int, double, double>, int> face_at;  // the first one with a texture point at a vertex
+    for (int f = 0; f < faces.size(); ++f)
+        for (int c = faces.first_corner(f); c < faces.first_corner(f) + faces.degree(f); ++c) {
+            const auto point = mesh.texture->points.row(mesh.texture->corners[c]);
+            charts.join(f, face_at.try_emplace({faces.vertices()[c], point[0], point[1]}, f).first->second);
+        }
+    std::vector<int> number(static_cast<std::size_t>(faces.size()), -1);
+    std::vector<std::vector<int>> result;
+    for (int f = 0; f < faces.size(); ++f) {
+        int& chart = number[charts.find(f)];
+        if (chart < 0) {
+            chart = static_cast<int>(result.size());
+            result.emplace_back();
+        }
+        result[chart].push_back(f);
+    }
+    return result;
 }
 
 }  // namespace beltrami

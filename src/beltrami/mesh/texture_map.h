@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Core>
 
 #include <beltrami/base/public.h>
@@ -13,5 +15,11 @@ namespace beltrami BELTRAMI_PUBLIC {
 /// @throw Error bad_mesh if there are none, a corner lacks one, one is not finite, or a vertex has several (a seam),
 ///        naming vertices
 Eigen::VectorXcd texture_map(const Mesh& mesh);
+
+/// The charts that texture coordinates divide a mesh into: faces that meet at a vertex with one texture point there are
+/// in one chart.
+/// @return the faces of every chart, ascending; charts by their first faces
+/// @pre every corner has texture coordinates
+std::vector<std::vector<int>> texture_charts(const Mesh& mesh);
 
 }  // namespace beltrami

@@ -37,6 +37,20 @@ TEST(TextureMap, IsOnePointAVertex) {
     EXPECT_EQ(texture_map(twice), map);
 }
 
+TEST(TextureMap, ChartsEndAtSeams) {
+    EXPECT_EQ(texture_charts(square()), (std::vector<std::vector<int>>{{0, 1}}));
+    // Points that are listed twice are no seam; those of one edge that lie elsewhere are.
+    Mesh twice = square();
+    twice.texture->points.conservativeResize(6, 2);
+    twice.texture->points.row(4) = twice.texture->points.row(2);
+    twice.texture->points.row(5) = twice.texture->points.row(0);
+    twice.texture->corners[3] = 5;
+    twice.texture->corners[4] = 4;
+    EXPECT_EQ(texture_charts(twice).size(), 1U);
+    twice.texture->points.bottomRows(2).array() += 1;
+    EXPECT_EQ(texture_charts(twice), (std::vector<std::vector<int>>{{0}, {1}}));
+}
+
 TEST(TextureMap, NamesTheVertexThatHasNone) {
     const auto refused = [](const Mesh& mesh, const std::vector<int>& vertices) {
         try {
