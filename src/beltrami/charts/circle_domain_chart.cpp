@@ -8,11 +8,13 @@
 #include <beltrami/base/effort.h>
 #include <beltrami/base/error.h>
 #include <beltrami/charts/circle_slide.h>
+#include <beltrami/charts/fold_free_disk.h>
 #include <beltrami/charts/hole_centre.h>
 #include <beltrami/operators/distortion.h>
 #include <beltrami/plane/circle_fit.h>
 #include <beltrami/solve/dirichlet_solver.h>
 #include <beltrami/unfold/fold_free.h>
+#include <beltrami/unfold/local_unfold.h>
 
 namespace beltrami {
 
@@ -141,12 +143,24 @@ void unfold(const Surface& source, CircleDomainChart& result) {
     options.max_iterations = 200;
     FoldFreeMap map = fold_free_map(source, freedom, Eigen::VectorXcd::Zero(source.operators.sample_count()),
                                     result.chart.vertices, options);
-    Chart chart = make_chart(source, std::move(map.map), false);
-    chart.outer_loop = result.chart.outer_loop;
-    chart.holes = std::move(result.chart.holes);
-    chart.factorizations = result.chart.factorizations + map.factorizations;
-    result.chart = std::move(chart);
-    measure(source, result);
+    const Eigen::VectorXcd before = result.chart.vertices;
+    const auto take = [&](Eigen::VectorXcd z, int factorizations) {
+        Chart chart = make_chart(source, std::move(z), false);
+        chart.outer_loop = result.chart.outer_loop;
+        chart.holes = std::move(result.chart.holes);
+        chart.factorizations = result.chart.factorizations + factorizations;
+        result.chart = std::move(chart);
+        measure(source, result);
+    };
+    take(std::move(map.map), map.factorizations);
+    if (!unforced(source, result).empty()) {
+        LocalUnfolding by_parts = unfold_locally(source, freedom, before);
+        take(std::move(by_parts.map), by_parts.factorizations);
+    }
+    if (!unforced(source, result).empty() && result.holes.empty()) {
+        FoldFreeDisk disk = fold_free_disk(source, before);
+        take(std::move(disk.map), disk.factorizations);
+    }
     if (const std::vector<int> faces = unforced(source, result); !faces.empty())
         throw Error(Cause::not_solved,
                     std::to_string(faces.size()) + " faces stay flipped in the circle domain, the first is face " +

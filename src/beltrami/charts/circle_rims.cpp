@@ -13,7 +13,7 @@ constexpr double kPi = std::numbers::pi;
 
 constexpr double kLeastShare = 0.2;        // of an increment in proportion to the edge's length
 constexpr int kNearby = 4;                 // edges on either side with which one is compared
-constexpr double kLeastRate = 1e-4;        // of angle per length, and of length, against the mean
+constexpr double kLeastLength = 1e-4;      // of an edge against those nearby
 constexpr double kLeastIncrement = 0.1;    // of the old increment
 constexpr double kAtLeast = 1.01;          // of the least increment: as good as it
 constexpr double kLargestIncrement = 2.0;  // radians
@@ -41,20 +41,19 @@ void limit_increments(std::vector<double>& increments, const std::vector<double>
 }
 
 /// For every edge of a rim a part of the angle that is its due by length among the edges nearby. The conformal map
-/// gives a long bay little of the circle, but a spike of one or two edges no less than that here.
+/// gives a long bay little of the circle, but a spike of one or two edges no less than that here: nearby, since along
+/// the walls of a slot increments are 1e-12 of the mean one, and are right.
 std::vector<double> least_increments(const std::vector<double>& lengths, const std::vector<double>& increments) {
     const int n = static_cast<int>(lengths.size());
-    const double even = 2 * kPi / std::accumulate(lengths.begin(), lengths.end(), 0.0);
     std::vector<double> least(n);
     for (int i = 0; i < n; ++i) {
-        double length = 0, angle = 0;
-        for (int j = -kNearby; j <= kNearby; ++j) {
-            const int k = (i + n + j % n) % n;
-            length += lengths[k];
-            angle += increments[k];
-        }
-        const double rate = std::max(angle / length, kLeastRate * even);
-        least[i] = kLeastShare * rate * std::max(lengths[i], kLeastRate * length);
+        double length = lengths[i], angle = increments[i];
+        for (int away = 1; 2 * away < n && (away <= kNearby || !(angle > 0)); ++away)
+            for (const int k : {(i + away) % n, (i + n - away) % n}) {
+                length += lengths[k];
+                angle += increments[k];
+            }
+        least[i] = kLeastShare * angle / length * std::max(lengths[i], kLeastLength * length);
     }
     return least;
 }

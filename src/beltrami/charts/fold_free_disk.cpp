@@ -1,20 +1,25 @@
 #include <beltrami/charts/fold_free_disk.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <optional>
 
 #include <beltrami/operators/distortion.h>
+#include <beltrami/plane/increasing.h>
 #include <beltrami/unfold/convex_combination_map.h>
 #include <beltrami/unfold/fold_free.h>
+#include <beltrami/unfold/local_unfold.h>
 
 namespace beltrami {
 
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
-/// Least angle of a boundary edge, as a part of what arc length would give it.
-constexpr double kLeastAngle = 1e-3;
+/// Least angle of a boundary edge, as a part of the mean of those around it, or, where that leaves folds, of what arc
+/// length would give it: faces with three vertices on a rim of 1e-9 are smaller than rounding.
+constexpr double kOfNeighbours = 1e-3, kOfLength[] = {1e-5, 1e-3};
 
 /// Angles of the boundary edges around 0; empty if they do not go round once.
 std::vector<double> angles_of(const std::vector<int>& loop, const Eigen::VectorXcd& chart) {
@@ -29,35 +34,30 @@ std::vector<double> angles_of(const std::vector<int>& loop, const Eigen::VectorX
     return angles;
 }
 
-}  // namespace
-
-FoldFreeDisk fold_free_disk(const Surface& source, const Eigen::VectorXcd& chart) {
-    FoldFreeDisk result;
-    const std::vector<int>& loop = source.topology.boundary_loops[0];
+/// Angles made positive, at least a part of what arc length gives; the number of those that were not is counted.
+std::vector<double> raised_angles(const Surface& source, std::vector<double> angles, double of_length,
+                                  FoldFreeDisk& result) {
     const std::vector<double>& lengths = source.boundary_edge_lengths[0];
-    double length = 0;
-    for (const double l : lengths) length += l;
-    std::vector<double> angles = angles_of(loop, chart);
-    result.kept_boundary = !angles.empty();
-    if (!result.kept_boundary) angles.assign(loop.size(), 0);
-    double sum = 0;
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-        const double by_length = kTurn * lengths[i] / length;
-        if (!result.kept_boundary) {
-            angles[i] = by_length;
-        } else if (angles[i] < kLeastAngle * by_length) {
-            angles[i] = kLeastAngle * by_length;
-            ++result.moved_boundary;
-        }
-        sum += angles[i];
+    const double length = std::accumulate(lengths.begin(), lengths.end(), 0.0);
+    if (!result.kept_boundary) {
+        for (const double l : lengths) angles.push_back(l / length);
+        return angles;
     }
-    const Distortion distortion = beltrami::distortion(source.operators, chart);
-    if (result.kept_boundary && result.moved_boundary == 0 && distortion.flipped.empty() && distortion.max < 1) {
-        result.map = chart;
-        result.fold_free = true;
-        return result;
-    }
-    result.changed = true;
+    const std::vector<double> given = angles;
+    for (double& angle : angles) angle = std::max(angle, 0.0);
+    raise_to_neighbours(angles, kOfNeighbours);
+    for (std::size_t i = 0; i < angles.size(); ++i)
+        angles[i] = std::max(angles[i], of_length * kTurn * lengths[i] / length);
+    result.moved_boundary = 0;
+    for (std::size_t i = 0; i < angles.size(); ++i) result.moved_boundary += angles[i] != given[i];
+    return angles;
+}
+
+/// Puts the boundary on the circle by its angles and opens the folds inside.
+void open_folds(const Surface& source, const Eigen::VectorXcd& chart, const std::vector<double>& angles,
+                FoldFreeDisk& result) {
+    const std::vector<int>& loop = source.topology.boundary_loops[0];
+    const double sum = std::accumulate(angles.begin(), angles.end(), 0.0);
     BoundaryCondition boundary;
     double at = result.kept_boundary ? std::arg(chart[loop[0]]) : 0;
     for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -66,16 +66,46 @@ FoldFreeDisk fold_free_disk(const Surface& source, const Eigen::VectorXcd& chart
     }
     Eigen::VectorXcd start = chart;
     for (std::size_t i = 0; i < loop.size(); ++i) start[loop[i]] = boundary.images[i];
+    const std::vector<Freedom> freedom = freedoms(boundary, source);
+    if (result.kept_boundary) {
+        LocalUnfolding opened = unfold_locally(source, freedom, start);
+        result.factorizations += opened.factorizations;
+        if (opened.fold_free) {
+            result.map = std::move(opened.map);
+            result.fold_free = true;
+            return;
+        }
+    }
     const Eigen::VectorXcd conformal = Eigen::VectorXcd::Zero(source.operators.sample_count());
-    FoldFreeMap found = fold_free_map(source, freedoms(boundary, source), conformal, start);
+    FoldFreeMap found = fold_free_map(source, freedom, conformal, start);
     result.factorizations += found.factorizations;
     if (!found.fold_free)
         if (const auto embedding = convex_embedding(source, boundary, result.factorizations)) {
-            found = fold_free_map(source, freedoms(boundary, source), conformal, *embedding);
+            found = fold_free_map(source, freedom, conformal, *embedding);
             result.factorizations += found.factorizations;
         }
     result.map = std::move(found.map);
     result.fold_free = found.fold_free;
+}
+
+}  // namespace
+
+FoldFreeDisk fold_free_disk(const Surface& source, const Eigen::VectorXcd& chart) {
+    FoldFreeDisk result;
+    const std::vector<double> angles = angles_of(source.topology.boundary_loops[0], chart);
+    result.kept_boundary = !angles.empty();
+    const std::vector<double> raised = raised_angles(source, angles, 0, result);
+    const Distortion distortion = beltrami::distortion(source.operators, chart);
+    if (result.kept_boundary && result.moved_boundary == 0 && distortion.flipped.empty() && distortion.max < 1) {
+        result.map = chart;
+        result.fold_free = true;
+        return result;
+    }
+    result.changed = true;
+    open_folds(source, chart, raised, result);
+    for (const double of_length : kOfLength)
+        if (!result.fold_free && result.kept_boundary)
+            open_folds(source, chart, raised_angles(source, angles, of_length, result), result);
     return result;
 }
 

@@ -9,11 +9,15 @@
 
 #include <beltrami/charts/chart.h>
 #include <beltrami/linear/graph_laplacian.h>
+#include <beltrami/plane/increasing.h>
 #include <beltrami/uniformize/intrinsic_triangulation.h>
 
 namespace beltrami {
 
 namespace {
+
+/// Of the mean step around it, what every step of the rim has at least: vertices that only touch the rim have no flux.
+constexpr double kLeastOfNeighbours = 0.1;
 
 /// The surface's triangles by their edge lengths, flipped until they are Delaunay.
 IntrinsicTriangulation delaunay_of(const Surface& source) {
@@ -74,15 +78,16 @@ std::optional<Eigen::VectorXcd> disk_map_by_vertex_source(const Surface& source,
 
     const auto& rim = source.topology.boundary_loops[0];
     const std::size_t n = rim.size();
-    double total = 0;
-    for (const int v : rim) total += flux[v];
+    std::vector<double> steps(n);
+    for (std::size_t i = 0; i < n; ++i) steps[i] = 0.5 * (flux[rim[i]] + flux[rim[(i + 1) % n]]);
+    if (!(std::accumulate(steps.begin(), steps.end(), 0.0) > 0)) return {};
+    raise_to_neighbours(steps, kLeastOfNeighbours);
+    const double total = std::accumulate(steps.begin(), steps.end(), 0.0);
     Eigen::VectorXcd g = Eigen::VectorXcd::Zero(load.size());
     double angle = 0;
     for (std::size_t i = 0; i < n; ++i) {
         g[rim[i]] = std::polar(1.0, angle);
-        const double step = 0.5 * (flux[rim[i]] + flux[rim[(i + 1) % n]]);
-        if (!(step > 0)) return {};
-        angle += 2 * std::numbers::pi * step / total;
+        angle += 2 * std::numbers::pi * steps[i] / total;
     }
     return laplacian.extend(std::move(g));
 }

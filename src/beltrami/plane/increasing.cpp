@@ -42,4 +42,19 @@ void make_increasing(std::vector<double>& values, double period, const std::vect
     values = std::move(result);
 }
 
+void raise_to_neighbours(std::vector<double>& increments, double part) {
+    constexpr std::size_t kAround = 4;
+    const std::vector<double> given = increments;
+    const std::size_t n = given.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        double sum = given[i];
+        std::size_t count = 1;
+        for (std::size_t away = 1; 2 * away <= n && (away <= kAround || !(sum > 0)); ++away) {
+            sum += given[(i + away) % n] + given[(i + n - away) % n];
+            count += 2;
+        }
+        increments[i] = std::max(given[i], part * sum / static_cast<double>(count));
+    }
+}
+
 }  // namespace beltrami

@@ -14,6 +14,10 @@ namespace {
 
 /// A step leaves at least this part of an increment, and never less than that part of what the source's edge has.
 constexpr double kLeastPart = 0.1, kFloor = 1e-3;
+/// Where no vertex of a loop is held, nor less than this part of what its length gives it among so many on either side;
+/// next to held vertices increments may fall as fast as they like.
+constexpr double kLeastOfNeighbours = 0.3;
+constexpr int kAround = 1;
 /// The largest increment, as part of a whole turn; where a loop or an arc has few vertices, this multiple of the mean
 /// one.
 constexpr double kMostOfTurn = 1 / std::numbers::pi, kMostOfMean = 1.5;
@@ -41,6 +45,20 @@ void for_arcs(const std::vector<char>& held, Visit visit) {
         visit(i, j);
         i = j;
     }
+}
+
+/// What the increment at a position is at least, by its edge's length, of those around it: where the map has little to
+/// go by, as at notches of an edge or two, steps would crush single edges.
+double least_by_neighbours(const Surface& source, const SlidingLoop& loop, int position) {
+    const std::vector<double>& lengths = source.boundary_edge_lengths[loop.loop];
+    const int n = static_cast<int>(lengths.size());
+    double length = 0, increments = 0;
+    for (int away = -kAround; away <= kAround; ++away) {
+        const int i = ((position + away) % n + n) % n;
+        length += lengths[i];
+        increments += loop.increment(i);
+    }
+    return kLeastOfNeighbours * increments / length * lengths[position];
 }
 
 }  // namespace
@@ -194,6 +212,7 @@ double SlidingBoundary::advance(const Eigen::VectorXcd& moved) {
         const Rim& rim = rims_[r];
         const auto& vertices = source_.topology.boundary_loops[l.loop];
         const int n = static_cast<int>(vertices.size());
+        if (n == 0) continue;
         const double length = l.curve.length(), at_corner = kAtCorner * length;
         std::vector<double> step(n, 0.0);
         for (int i = 0; i < n; ++i) {
@@ -219,7 +238,9 @@ double SlidingBoundary::advance(const Eigen::VectorXcd& moved) {
                 const double present = l.increment(i);
                 double& want = wanted[i - first];
                 want = present + step[(i + 1) % n] - step[i % n];
-                least[i - first] = std::max(kLeastPart * present, std::min(rim.floors[i % n], present));
+                const double floor =
+                    whole ? std::max(rim.floors[i % n], least_by_neighbours(source_, l, i % n)) : rim.floors[i % n];
+                least[i - first] = std::max(kLeastPart * present, std::min(floor, present));
                 most[i - first] = std::max({present, kMostOfTurn * length, kMostOfMean * sum / count});
                 room += least[i - first];
                 fine = fine && want >= least[i - first] && want <= most[i - first];

@@ -7,6 +7,7 @@
 #include <beltrami/teichmuller/hamilton.h>
 #include <beltrami/unfold/convex_combination_map.h>
 #include <beltrami/unfold/fold_free.h>
+#include <beltrami/unfold/local_unfold.h>
 
 namespace beltrami {
 
@@ -94,8 +95,15 @@ bool Finish::open_folds(FoundMap& found, const BoundaryCondition& boundary) {
     FoldFreeMap opened = open(found.map);
     if (!opened.fold_free)
         if (const auto embedding = convex_embedding(source_, boundary, factorizations_)) opened = open(*embedding);
-    if (opened.fold_free) found.map = std::move(opened.map);
-    return opened.fold_free;
+    if (opened.fold_free) {
+        found.map = std::move(opened.map);
+        return true;
+    }
+    // In crowded parts, smaller than what the solver leaves over of the whole, each by itself.
+    LocalUnfolding by_parts = unfold_locally(source_, freedoms_, found.map);
+    factorizations_ += by_parts.factorizations;
+    if (by_parts.fold_free) found.map = std::move(by_parts.map);
+    return by_parts.fold_free;
 }
 
 void Finish::follow(FoundMap& found, double step, int newton_steps) const {
