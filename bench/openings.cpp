@@ -75,19 +75,25 @@ int farthest(const Distances& from) {
 
 Mesh opened_by_plane(const Mesh& closed, double part) {
     Mesh best;
-    double shortest = std::numeric_limits<double>::infinity();
-    for (const double side : {1.0, -1.0}) {
-        const Eigen::Vector3d axis = side * longest_axis(closed.positions);
-        std::vector<double> heights;
-        for (Eigen::Index v = 0; v < closed.positions.rows(); ++v) heights.push_back(closed.positions.row(v).dot(axis));
-        std::sort(heights.begin(), heights.end());
-        const double at = heights[static_cast<std::size_t>(part * static_cast<double>(heights.size()))];
-        Mesh open = remove_unreferenced(largest_component(cut_by_plane(closed, {axis, at}).mesh).mesh).mesh;
-        const double length = boundary_length(open);
-        if (length > 0 && length < shortest) {
+    std::size_t fewest = std::numeric_limits<std::size_t>::max();
+    for (const double factor : {1.0, 0.5, 0.25, 2.0, 3.0}) {
+        double shortest = std::numeric_limits<double>::infinity();
+        for (const double side : {1.0, -1.0}) {
+            const Eigen::Vector3d axis = side * longest_axis(closed.positions);
+            std::vector<double> heights;
+            for (Eigen::Index v = 0; v < closed.positions.rows(); ++v)
+                heights.push_back(closed.positions.row(v).dot(axis));
+            std::sort(heights.begin(), heights.end());
+            const double at = heights[static_cast<std::size_t>(factor * part * static_cast<double>(heights.size()))];
+            Mesh open = remove_unreferenced(largest_component(cut_by_plane(closed, {axis, at}).mesh).mesh).mesh;
+            const std::size_t loops = topology(open).boundary_loops.size();
+            const double length = boundary_length(open);
+            if (loops == 0 || loops > fewest || (loops == fewest && !(length < shortest))) continue;
+            fewest = loops;
             shortest = length;
             best = std::move(open);
         }
+        if (fewest == 1) break;
     }
     return best;
 }

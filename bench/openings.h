@@ -6,8 +6,8 @@
 
 namespace beltrami::bench {
 
-/// The mesh without what lies beyond a plane across its longest axis: @p part of its vertices at most, on the side
-/// where the cut is shorter; the largest component of what is left.
+/// The mesh without what lies beyond a plane across its longest axis: about @p part of its vertices, more or less where
+/// that leaves one opening, on the side where the cut is shorter; the largest component of what is left.
 /// @pre triangles or quads, genus 0
 Mesh opened_by_plane(const Mesh& closed, double part = 0.03);
 
