@@ -7,6 +7,7 @@
 #include <string>
 
 #include <beltrami/base/error.h>
+#include <beltrami/certificate/modulus.h>
 #include <beltrami/charts/shape.h>
 
 namespace beltrami {
@@ -33,6 +34,33 @@ Distance distance_of(const ExtremalMap& map) {
             map.termination == Termination::converged && map.one_to_one()};
 }
 
+/// Whether two surfaces are one mesh: the identity is conformal, and what circle domains of coarse holes add to that is
+/// their error.
+bool same_shape(const Surface& a, const Surface& b) {
+    const auto same = [](const Positions& p, const Positions& q) {
+        return p.rows() == q.rows() && p.cols() == q.cols() && p == q;
+    };
+    return a.mesh.faces == b.mesh.faces && same(a.mesh.positions, b.mesh.positions) &&
+           a.metric.has_value() == b.metric.has_value() && (!a.metric || same(*a.metric, *b.metric));
+}
+
+/// Whether a modulus decides: of disks, which are all alike, and of rings.
+bool decided_by_moduli(const Surface& surface, const Correspondence& wanted, int outer) {
+    const int loops = static_cast<int>(surface.topology.boundary_loops.size());
+    return loops <= 2 && 0 <= outer && outer < loops && wanted.marks.empty() && !wanted.waypoints;
+}
+
+/// The modulus of a ring; of a disk any.
+ModulusBracket modulus_of(const Surface& surface) {
+    return surface.topology.boundary_loops.size() == 2 ? ring_modulus(surface) : ModulusBracket{1, 1};
+}
+
+Distance distance_of(const ModulusBracket& a, const ModulusBracket& b) {
+    const double ratio = std::sqrt(a.lower * a.upper / (b.lower * b.upper));
+    return {half_log(std::max(ratio, 1 / ratio)), half_log(modulus_ratio(a, b)),
+            half_log(std::max(a.upper / b.lower, b.upper / a.lower)), true};
+}
+
 /// The options with the shapes' charts.
 ExtremalOptions with_charts_of(ExtremalOptions options, const std::vector<const Shape*>& shapes) {
     options.shapes.insert(options.shapes.end(), shapes.begin(), shapes.end());
@@ -46,6 +74,9 @@ Distance teichmueller_distance(const Shape& a, const Shape& b, const Corresponde
     if (both_ways && (!wanted.loops.empty() || !wanted.marks.empty() || wanted.waypoints))
         throw Error(Cause::bad_option, "pairs of loops, marks and waypoints are those of one direction",
                     "ask for that direction only");
+    if (decided_by_moduli(a.surface(), wanted, wanted.outer_loop) && decided_by_moduli(b.surface(), wanted, outer) &&
+        a.surface().topology.boundary_loops.size() == b.surface().topology.boundary_loops.size())
+        return distance_of(modulus_of(a.surface()), modulus_of(b.surface()));
     const ExtremalOptions options = with_charts_of(given, {&a, &b});
     const Distance there = distance_of(extremal_map(a.surface(), Constraints(b.surface(), wanted, outer), options));
     if (!both_ways) return there;
@@ -84,19 +115,30 @@ DistanceMatrix distance_matrix(const std::vector<Surface>& surfaces, const Corre
                             " boundary loops, " + name(i) + " has " +
                             std::to_string(surfaces[i].topology.boundary_loops.size()),
                         "compare shapes with the same number of holes", {Things::shapes, {0, i}});
+    const bool by_moduli = wanted.loops.empty() && decided_by_moduli(surfaces[0], wanted, wanted.outer_loop);
+    std::vector<ModulusBracket> moduli;
     std::vector<std::unique_ptr<const Shape>> shapes;
-    for (int i = 0; i < n; ++i) {
-        shapes.push_back(std::make_unique<const Shape>(surfaces[i]));
-        naming(name(i), {i}, [&] { shapes.back()->circles(wanted.outer_loop); });
-    }
+    for (int i = 0; i < n; ++i)
+        naming(name(i), {i}, [&] {
+            if (by_moduli) {
+                moduli.push_back(modulus_of(surfaces[i]));
+                return;
+            }
+            shapes.push_back(std::make_unique<const Shape>(surfaces[i]));
+            shapes.back()->circles(wanted.outer_loop);
+        });
+    const bool as_they_are = wanted.loops.empty() && wanted.marks.empty() && !wanted.waypoints;
     DistanceMatrix result;
     result.distance = result.lower = result.upper = Eigen::MatrixXd::Zero(n, n);
     int done = 0;
     for (int i = 0; i < n; ++i)
         for (int j = i + 1; j < n; ++j) {
             Distance d;
-            naming(name(i) + " and " + name(j), {i, j},
-                   [&] { d = teichmueller_distance(*shapes[i], *shapes[j], wanted, options, wanted.outer_loop); });
+            if (!as_they_are || !same_shape(surfaces[i], surfaces[j]))
+                naming(name(i) + " and " + name(j), {i, j}, [&] {
+                    d = by_moduli ? distance_of(moduli[i], moduli[j])
+                                  : teichmueller_distance(*shapes[i], *shapes[j], wanted, options, wanted.outer_loop);
+                });
             result.distance(i, j) = result.distance(j, i) = d.distance;
             result.lower(i, j) = result.lower(j, i) = d.lower;
             result.upper(i, j) = result.upper(j, i) = d.upper;
@@ -115,6 +157,7 @@ std::vector<Merge> cluster_by_distance(const Eigen::MatrixXd& distances) {
         int name, size;
     };
     std::vector<Cluster> clusters;
+    clusters.reserve(static_cast<std::size_t>(n));
     for (int i = 0; i < n; ++i) clusters.push_back({i, 1});
     Eigen::MatrixXd mean = distances;  // between clusters, in their places
     std::vector<Merge> merges;

@@ -14,9 +14,11 @@ struct Distance {
     bool settled = true;  ///< every map has converged and is free of folds
 };
 
-/// Distance between two surfaces of genus 0 with as many boundary loops, by the extremal map of each onto the other,
-/// whose boundary slides: the lower bound is the larger of the two, the upper one the smaller. Between matched loops
-/// and in the class of straight ways (extremal_map.h): another matching or a braid may be nearer.
+/// Distance between two surfaces of genus 0 with as many boundary loops. Of disks it is 0, and of rings without marks
+/// half the logarithm of the ratio of their moduli, each between two Dirichlet energies (modulus.h), without a map.
+/// Of others by the extremal map of each onto the other, whose boundary slides: the lower bound is the larger of the
+/// two, the upper one the smaller. Between matched loops and in the class of straight ways (extremal_map.h): another
+/// matching or a braid may be nearer.
 /// @param wanted loops, marks and waypoints are those of the map from a to b, and must be absent if both directions
 /// are
 ///                wanted
@@ -33,7 +35,8 @@ struct DistanceMatrix {
     std::vector<std::array<int, 2>> unsettled;  ///< pairs some map of which has not converged or has folds
 };
 
-/// Every shape is charted once. @param surfaces at least two, kept by reference during the call
+/// Every shape is charted once, or its modulus worked out. Shapes that are the same mesh have distance 0. @param
+/// surfaces at least two, kept by reference during the call
 /// @param progress called after each pair with their number; returning false cancels (Error cancelled)
 /// @param names    what errors call the shapes; empty: "shape 0" …
 /// @throw Error bad_mesh naming a shape that is not of genus 0 with a boundary; bad_boundary naming two shapes with
