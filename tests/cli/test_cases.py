@@ -1,9 +1,11 @@
 """Small meshes that were wrong once, each of a kind, with what is right; skipped where their folder, beside that of the
 scans, is absent. What they prove is in test_certify.py."""
 
+import json
+import math
 import unittest
 
-from support import MESHES, Command
+from support import MESHES, Command, read_faces
 
 CASES = MESHES.parent / "cases"
 
@@ -50,6 +52,8 @@ class Cases(Command):
 
     def test_a_hole_of_three_edges(self):
         self.assertEqual(self.mapped("h3.obj", "--onto", CASES / "ds.json")["map"]["flipped"], 0)
+        record = self.record("distance", CASES / "h3.obj", CASES / "h3.obj")
+        self.assertEqual(record["distances"]["distance"][0][1], 0)
 
     def test_a_line_outside_the_target(self):
         failed = self.run_command("map", CASES / "d.obj", "-o", self.path("o.obj"), "--boundary", "disk:.3", "--pin",
@@ -72,6 +76,62 @@ class Cases(Command):
         record = self.record("measure", CASES / "mirror.obj")
         self.assertIn("every face is flipped of 1 chart of the texture (16 faces, the first is face 4): its image is mirrored",
                       record["warnings"])
+
+
+def domain(outer, holes):
+    return json.dumps({"outer": outer, "holes": [{"circle": hole} for hole in holes]})
+
+
+@unittest.skipUnless((MESHES / "amoeba2.obj").exists(), "no scans in BELTRAMI_TEST_MESHES")
+class CrowdedScans(Command):
+    """Surfaces whose outline a conformal map crowds to parts of 1e-12."""
+
+    def onto(self, name, target, *arguments):
+        (self.folder / "target.json").write_text(target)
+        return self.record("map", MESHES / name, "--onto", self.path("target.json"), "-o", self.path("o.obj"), *arguments)
+
+    def test_a_ring_with_a_slot(self):
+        record = self.onto("amoeba2.obj", domain({"circle": [0, 0, 1]}, [[0, 0, 0.3]]))
+        self.assertEqual(record["map"]["flipped"], 0)
+        self.assertGreaterEqual(record["map"]["K_lower_proved"], 2.008)
+        self.assertLessEqual(record["map"]["K_upper"], 2.032)
+        text = self.run_command("map", MESHES / "amoeba2.obj", "--onto", self.path("target.json"), "-o", self.path("o.obj")).stdout
+        self.assertIn("(proved, floating point)", text)
+        square = {"polygon": [[0, 0], [1, 0], [1, 1], [0, 1]]}
+        self.assertEqual(self.onto("amoeba2.obj", domain(square, [[0.55, 0.55, 0.05]]))["map"]["flipped"], 0)
+
+    def test_seven_holes_with_notches(self):
+        holes = [[0, 0, 0.12]] + [[0.55 * math.cos(a), 0.55 * math.sin(a), 0.12] for a in (k * math.pi / 3 for k in range(6))]
+        record = self.onto("peaks_7.obj", domain({"circle": [0, 0, 1]}, holes))
+        self.assertEqual(record["map"]["flipped"], 0)
+        self.assertLess(record["map"]["mu"]["p99"], 0.9)
+        above = [warning for warning in record["warnings"] if "|mu| above 0.9" in warning]
+        self.assertTrue(record["map"]["mu"]["max"] < 0.9 or (above and "notches" in above[0]), record["warnings"])
+
+    def test_a_disk_with_legs(self):
+        record = self.record("flatten", MESHES / "camel_b.obj", "--disk", "-o", self.path("o.obj"))
+        self.assertEqual(record["map"]["flipped"], 0)
+        self.assertLess(record["map"]["mu"]["mean"], 0.23)
+        self.assertEqual(self.onto("camel_b.obj", domain({"circle": [0, 0, 1]}, []))["map"]["flipped"], 0)
+
+    def test_four_marks(self):
+        loop = boundary_of(read_faces(MESHES / "camel_b.obj")[2])
+        corners = [(0, 0), (2, 0), (2, 1), (0, 1)]
+        with open(self.path("marks.txt"), "w") as out:
+            out.writelines(f"{loop[len(loop) * i // 4]} {x} {y}\n" for i, (x, y) in enumerate(corners))
+        record = self.onto("camel_b.obj", domain({"polygon": corners}, []), "--marks", self.path("marks.txt"))
+        self.assertEqual(record["map"]["flipped"], 0)
+        self.assertLess(record["map"]["K_upper"], 1.05 * record["map"]["K_lower_proved"])
+
+
+def boundary_of(faces):
+    """The boundary loop of a disk, from its smallest vertex."""
+    half = {(f[i], f[(i + 1) % len(f)]) for f in faces for i in range(len(f))}
+    after = {a: b for a, b in half if (b, a) not in half}
+    loop = [min(after)]
+    while after[loop[-1]] != loop[0]:
+        loop.append(after[loop[-1]])
+    return loop
 
 
 if __name__ == "__main__":

@@ -51,7 +51,7 @@ class Onto(WithRing):
     def test_the_terminal_says_loops_dimension_and_bracket(self):
         text = self.run_command("map", self.source, "--onto", self.target, "-o", self.path("out.obj")).stdout
         self.assertIn("loops: 0:0 1:1; differentials: dimension 1 (theory 1); bracket of K*:", text)
-        self.assertIn("(estimate)", text)
+        self.assertIn("(estimate; proved: K = 1.73", text)
 
     def test_rectangle_by_marks_is_the_affine_map(self):
         n = 8

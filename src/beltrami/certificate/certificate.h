@@ -16,7 +16,7 @@ struct Bound {
         corner,                  ///< of smooth data with this corner
         edge_corner,             ///< edge_corner_bound.h
         moduli,                  ///< modulus.h
-        moduli_upper,            ///< of a crowded annulus, from above
+        moduli_upper,            ///< modulus.h from above, where boundaries slide
         pair,                    ///< pair_bound.h
         verified,                ///< an upper bound by a map that was verified
         mesh_harmonic,           ///< mesh_harmonic_bound()

@@ -20,11 +20,11 @@ constexpr double kRight = 1e-9;
 
 using detail::Laplacian;
 
-/// The energy of the harmonic function that is 0 on some vertices and 1 on others, free elsewhere.
-double condenser_energy(const Operators& operators, const std::vector<int>& at_zero, const std::vector<int>& at_one,
-                        int& factorizations) {
+/// The harmonic function that is 0 on some vertices and 1 on others, free elsewhere; its energy is returned.
+double condenser(const Operators& operators, const std::vector<int>& at_zero, const std::vector<int>& at_one,
+                 Eigen::VectorXd& u, int& factorizations) {
     std::vector<char> held(static_cast<std::size_t>(operators.vertex_count), 0);
-    Eigen::VectorXd u = Eigen::VectorXd::Zero(operators.vertex_count);
+    u.setZero(operators.vertex_count);
     for (const int v : at_zero) held[v] = 1;
     for (const int v : at_one) {
         held[v] = 1;
@@ -78,17 +78,23 @@ Sides sides_between(const std::vector<int>& loop, const std::array<int, 4>& posi
     return sides;
 }
 
-ModulusBracket quadrilateral_modulus(const Operators& operators, const Sides& sides) {
-    ModulusBracket result{};
-    result.lower = 1 / condenser_energy(operators, sides[3], sides[1], result.factorizations);
-    result.upper = condenser_energy(operators, sides[0], sides[2], result.factorizations);
+QuadrilateralPotentials quadrilateral_potentials(const Operators& operators, const Sides& sides) {
+    QuadrilateralPotentials result;
+    result.u_energy = condenser(operators, sides[3], sides[1], result.u, result.factorizations);
+    result.v_energy = condenser(operators, sides[0], sides[2], result.v, result.factorizations);
     return result;
+}
+
+ModulusBracket quadrilateral_modulus(const Operators& operators, const Sides& sides) {
+    const QuadrilateralPotentials potentials = quadrilateral_potentials(operators, sides);
+    return {1 / potentials.u_energy, potentials.v_energy, potentials.factorizations};
 }
 
 ModulusBracket ring_modulus(const Surface& ring, const Operators& operators) {
     ModulusBracket result{};
     const auto& loops = ring.topology.boundary_loops;
-    result.lower = 1 / condenser_energy(operators, loops[0], loops[1], result.factorizations);
+    Eigen::VectorXd u;
+    result.lower = 1 / condenser(operators, loops[0], loops[1], u, result.factorizations);
     result.upper = period_energy(ring, operators, result.factorizations);
     return result;
 }

@@ -21,6 +21,16 @@ using Sides = std::array<std::vector<int>, 4>;
 /// The sides of a boundary loop between four of its positions, ascending.
 Sides sides_between(const std::vector<int>& loop, const std::array<int, 4>& positions);
 
+/// The two harmonic functions of a disk with four sides: u is 0 on side 3 and 1 on side 1, v is 0 on side 0 and 1 on
+/// side 2, and nothing else is held. Two factorisations.
+struct QuadrilateralPotentials {
+    Eigen::VectorXd u, v;  ///< #V
+    double u_energy = 0, v_energy = 0;
+    int factorizations = 0;
+};
+/// @throw Error not_solved
+QuadrilateralPotentials quadrilateral_potentials(const Operators& operators, const Sides& sides);
+
 /// The extremal distance between sides 3 and 1 (width over height for a rectangle with side 0 below): 1/D of the
 /// function that is 0 on one and 1 on the other from below, D of that of sides 0 and 2 from above. Two factorisations.
 /// @throw Error not_solved

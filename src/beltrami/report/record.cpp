@@ -42,7 +42,7 @@ MapRecord map_record(const ExtremalMap& result) {
     if (result.distortion.flipped.empty() || result.K_lower > 1) record.K_lower = result.K_lower;
     record.K_lower_proved = result.K_lower_proved;
     for (const Bound& bound : result.bounds)
-        if (bound.kind == Bound::Kind::verified) record.K_upper = bound.K;
+        if (bound.kind == Bound::Kind::verified || bound.kind == Bound::Kind::moduli_upper) record.K_upper = bound.K;
     record.bounds = result.bounds;
     record.boundary_residual = result.boundary_residual;
     return record;

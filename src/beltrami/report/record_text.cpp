@@ -120,9 +120,13 @@ std::string to_remarks(const Record& record) {
         text += "loops:";
         for (const LoopOnto& loop : onto.loops) text += fmt::format(" {}:{}", loop.loop, loop.curve);
         text += fmt::format("; differentials: dimension {} (theory {})", onto.dimension, onto.expected_dimension);
-        if (onto.dimension > 0)
-            text += fmt::format("; bracket of K*: {:.5f} to {:.5f} (estimates)", record.map ? *record.map->K_lower : 1,
-                                onto.K_upper);
+        const auto is_proved = [&](const MapRecord& map) {
+            return map.K_lower_proved && *map.K_lower <= *map.K_lower_proved && map.K_upper &&
+                   onto.K_upper >= *map.K_upper;
+        };
+        if (onto.dimension > 0 && record.map && record.map->K_lower)
+            text += fmt::format("; bracket of K*: {:.5f} to {:.5f} ({})", *record.map->K_lower, onto.K_upper,
+                                is_proved(*record.map) ? "proved, floating point" : "estimates");
         text += "\n";
     }
     if (record.uniformization) text += lines_of(*record.uniformization);

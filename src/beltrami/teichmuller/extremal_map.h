@@ -71,7 +71,7 @@ struct ExtremalMap : MapResult {
     double k = 0, K = 1;
     double K_lower = 1;         ///< the largest lower bound of K*, proved or estimated; 1 if there is none
     double K_lower_proved = 1;  ///< the largest that is a proof up to floating point and quadrature
-    double K_upper = 1;         ///< where boundaries slide: I⁺, from which K* is not far above at the extremal φ
+    double K_upper = 1;         ///< where boundaries slide: I⁺, near K* at the extremal φ, or what moduli prove
     double K_max = 0;           ///< largest K of a face; infinite if faces are flipped or collapsed
     std::vector<Bound> bounds;
     std::optional<SplitProblem> split;    ///< the mesh that was mapped, if it is not the source itself

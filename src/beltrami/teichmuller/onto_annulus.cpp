@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include <beltrami/charts/annulus_map.h>
+#include <beltrami/teichmuller/direct_map.h>
 
 namespace beltrami {
 
@@ -69,27 +70,8 @@ std::optional<ExtremalMap> crowded_annulus_onto_ring(const Surface& source, cons
     result.distortion = distortion(source.operators, result.map);
     if (!result.distortion.flipped.empty()) return {};
     result.start = result.map;
-    // The square of the one-form of u, with the sign that the map's coefficient has.
-    const Eigen::VectorXcd u = potentials.u.cast<Complex>();
-    result.phi.resize(source.operators.sample_count());
-    double along = 0;
-    for (Eigen::Index s = 0; s < result.phi.size(); ++s) {
-        const Complex form = source.operators.derivatives(static_cast<int>(s), u)[0];
-        result.phi[s] = form * form;
-        along += source.operators.weights[s] * std::real(result.distortion.mu[s] * result.phi[s]);
-    }
-    if (along < 0) result.phi = -result.phi;
-    result.differential = differential_of(source, result.phi);
-    const double least = stretch / (kTwoPi * potentials.v_energy), most = stretch * potentials.u_energy / kTwoPi;
-    result.K_lower = std::max({1.0, least, 1 / most});
-    result.K_upper = std::max(most, 1 / least);
-    result.K_max = result.distortion.K_max();
-    result.K = std::sqrt(result.K_lower * result.K_upper);
-    result.k = k_of(result.K);
-    result.bounds = {{Bound::Kind::moduli, result.K_lower, Bound::Of::extremal, true},
-                     {Bound::Kind::moduli_upper, result.K_upper, Bound::Of::extremal, true},
-                     {Bound::Kind::attained, result.K_max, Bound::Of::extremal, true}};
-    result.dimension = result.expected_dimension = 1;
+    complete_direct(source, potentials.u, stretch / (kTwoPi * potentials.v_energy),
+                    stretch * potentials.u_energy / kTwoPi, result);
     result.factorizations = 2;
     for (const int loop : {0, 1})
         result.loops.push_back(loop_onto(source, loop, curves[loop], ring.curve(curves[loop]), potentials, result.map));

@@ -4,12 +4,17 @@
 #include <string>
 
 #include <beltrami/base/error.h>
+#include <beltrami/certificate/proved_bounds.h>
+#include <beltrami/certificate/refined_problem.h>
 #include <beltrami/charts/shape.h>
 #include <beltrami/differentials/dimension.h>
 #include <beltrami/mesh/subdivide.h>
 #include <beltrami/starts/given_start.h>
+#include <beltrami/targets/target_mesh.h>
 #include <beltrami/teichmuller/coarse_sliding_start.h>
+#include <beltrami/teichmuller/direct_map.h>
 #include <beltrami/teichmuller/onto_annulus.h>
+#include <beltrami/teichmuller/onto_quadrilateral.h>
 
 namespace beltrami {
 
@@ -77,7 +82,9 @@ int OntoProblem::factorizations() const {
 }
 
 std::optional<ExtremalMap> OntoProblem::direct() const {
-    return crowded_annulus_onto_ring(source(), *target_, wanted_);
+    if (target_surface_) return {};
+    if (auto ring = crowded_annulus_onto_ring(source(), *target_, wanted_)) return ring;
+    return quadrilateral_onto_rectangle(source(), *target_, wanted_);
 }
 
 SlidingStart OntoProblem::start() const {
@@ -117,6 +124,45 @@ std::vector<SlidingLoop> OntoProblem::move(const std::vector<Complex>& images) {
         throw Error(Cause::bad_boundary,
                     "there are " + std::to_string(images.size()) + " new images, but nothing is prescribed");
     return {};
+}
+
+/// The dilatation of the extremal map is the ratio of the moduli where there is but one: of rings without marks and of
+/// disks with four.
+void OntoProblem::prove(ExtremalMap& result) const {
+    // Of a domain two factorisations are little; of surfaces, which are compared in pairs, they would be much.
+    const bool proves = options_.prove.value_or(!target_surface_ || source().mesh.face_count() <=
+                                                                        ProvedBoundsOptions().most_faces_for_pairs);
+    if (!proves || !all_triangles(source().mesh)) return;
+    const auto record = [&](const ModulusBracket& own, const ModulusBracket& other) {
+        result.factorizations += own.factorizations + other.factorizations;
+        record_moduli(modulus_ratio(own, other), std::max(other.upper / own.lower, own.upper / other.lower), result);
+    };
+    if (source().topology.boundary_loops.size() == 2 && wanted_.marks.empty()) {
+        if (const auto other = ring_modulus_of_target()) record(ring_modulus(source()), *other);
+    } else if (const auto marked = marked_quadrilateral(source(), wanted_); marked && !target_surface_) {
+        if (const auto other = target_modulus(target_->domain(), marked->parameters))
+            record(quadrilateral_modulus(source().operators,
+                                         sides_between(source().topology.boundary_loops[0], marked->positions)),
+                   {*other, *other});
+    }
+}
+
+std::optional<ModulusBracket> OntoProblem::ring_modulus_of_target() const {
+    if (target_surface_) {
+        if (!all_triangles(target_surface_->mesh)) return {};
+        return ring_modulus(*target_surface_);
+    }
+    const TargetDomain& domain = target_->domain();
+    const auto are = [&](TargetCurve::Kind kind) {
+        return domain.outer.kind() == kind && domain.holes[0].kind() == kind;
+    };
+    if (are(TargetCurve::Kind::circle)) {
+        const double modulus = round_ring_modulus(domain.outer.centre(), domain.outer.radius(),
+                                                  domain.holes[0].centre(), domain.holes[0].radius());
+        return ModulusBracket{modulus, modulus};
+    }
+    if (!are(TargetCurve::Kind::polygon)) return {};
+    return ring_modulus(Surface(target_mesh(domain, {.edge_length = edge_length_for(source(), domain)}).mesh));
 }
 
 /// From the target's circle domain back to its faces.

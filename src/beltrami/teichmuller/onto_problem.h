@@ -1,5 +1,6 @@
 #pragma once
 
+#include <beltrami/certificate/modulus.h>
 #include <beltrami/teichmuller/sliding_problem.h>
 
 namespace beltrami {
@@ -24,8 +25,10 @@ class OntoProblem final : public SlidingProblem {
     BoundaryCondition marked() const override;
     std::vector<SlidingLoop> move(const std::vector<Complex>& images) override;
     void record(ExtremalMap& result) const override;
+    void prove(ExtremalMap& result) const override;
 
   private:
+    std::optional<ModulusBracket> ring_modulus_of_target() const;
     void make_target(const Surface& source, const Constraints& constraints, const TargetModel* given);
 
     ExtremalOptions options_;

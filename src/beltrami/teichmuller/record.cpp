@@ -13,6 +13,8 @@ namespace {
 
 /// Where the deviation exceeds this part of k, k is no more than a rough estimate; a smaller k says nothing.
 constexpr double kRough = 0.6, kLeastRoughK = 1e-3;
+/// Faces with a larger |μ| are crushed where k is smaller than that.
+constexpr double kCrushed = 0.9, kMildK = 0.67;
 /// Residuals below are rounding.
 constexpr double kLeastResidual = 1e-16;
 
@@ -59,6 +61,22 @@ void record_space(const DifferentialSpace& space, std::optional<int> expected_di
         result.warnings.push_back({WarningKind::differentials, "the space of differentials has dimension " +
                                                                    std::to_string(result.dimension) + ", theory says " +
                                                                    std::to_string(result.expected_dimension)});
+}
+
+void warn_of_crushed_faces(ExtremalMap& result) {
+    if (!result.distortion.flipped.empty() || !(result.k < kMildK)) return;
+    std::vector<int> crushed;
+    const Eigen::VectorXd& abs_mu = result.distortion.face_abs_mu;
+    for (Eigen::Index f = 0; f < abs_mu.size(); ++f)
+        if (abs_mu[f] > kCrushed) crushed.push_back(static_cast<int>(f));
+    if (crushed.empty()) return;
+    const bool one = crushed.size() == 1;
+    result.warnings.push_back({WarningKind::rough,
+                               std::to_string(crushed.size()) + (one ? " face has" : " faces have") +
+                                   " |mu| above 0.9, the first is face " + std::to_string(crushed[0]) +
+                                   ": the map leaves next to no room there, at notches and slots of the outline, and "
+                                   "linear faces cannot follow it; a finer mesh there can",
+                               {Things::faces, crushed}});
 }
 
 void record_shortcomings(ExtremalMap& result) {

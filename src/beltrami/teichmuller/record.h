@@ -23,4 +23,7 @@ void record_space(const DifferentialSpace& space, std::optional<int> expected_di
 /// The warnings about a map that is not one-to-one, has not settled or is far from constant dilatation.
 void record_shortcomings(ExtremalMap& result);
 
+/// The warning about single faces that are stretched far more than the extremal map is.
+void warn_of_crushed_faces(ExtremalMap& result);
+
 }  // namespace beltrami

@@ -20,22 +20,29 @@ CircleDomainChart circles_of(const Surface& source, const Surface& mapped, int o
 }  // namespace
 
 SlidingProblem::SlidingProblem(const Surface& given, PreparedProblem prepared, int outer_loop, const char* kind,
-                               const std::vector<const Shape*>& shapes)
-    : prepared_(std::move(prepared)),
+                               std::vector<const Shape*> shapes)
+    : given_(given),
+      prepared_(std::move(prepared)),
       source_(prepared_.surface_of(given)),
-      domain_(circles_of(given, source_, outer_loop, shapes)),
-      kind_(kind) {}
+      outer_loop_(outer_loop),
+      kind_(kind),
+      shapes_(std::move(shapes)) {}
+
+const CircleDomainChart& SlidingProblem::domain() const {
+    if (!domain_) domain_ = circles_of(given_, source_, outer_loop_, shapes_);
+    return *domain_;
+}
 
 double SlidingProblem::phase() const {
-    for (const RoundHole& hole : domain_.holes)
+    for (const RoundHole& hole : domain().holes)
         if (std::abs(hole.centre) > kOffCentre) return std::arg(hole.centre);
-    return std::arg(domain_.chart.vertices[source_.topology.boundary_loops[outer_loop()][0]]);
+    return std::arg(domain().chart.vertices[source_.topology.boundary_loops[outer_loop()][0]]);
 }
 
 Warnings SlidingProblem::warnings() const {
     Warnings result;
     if (prepared_.split) result.push_back(prepared_.split_warning(kind_));
-    append(result, domain_.chart.warnings);
+    if (domain_) append(result, domain_->chart.warnings);
     return result;
 }
 

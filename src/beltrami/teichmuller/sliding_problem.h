@@ -18,14 +18,15 @@ class SlidingProblem {
     /// The mesh to solve on: no edge across it joins two boundary vertices.
     const Surface& source() const { return source_; }
     const std::optional<SplitProblem>& split() const { return prepared_.split; }
-    /// The circle domain of source().
-    const CircleDomainChart& domain() const { return domain_; }
+    /// The circle domain of source(), made when it is first asked for.
+    /// @throw Error bad_mesh, not_solved
+    const CircleDomainChart& domain() const;
     /// Rotation of the c-step's grid, tied to the source's shape.
     double phase() const;
     /// What the result says about split and chart.
     Warnings warnings() const;
     /// Of the charts.
-    virtual int factorizations() const { return domain_.factorizations; }
+    virtual int factorizations() const { return domain_ ? domain_->factorizations : 0; }
 
     /// The extremal map where it is known without an iteration.
     virtual std::optional<ExtremalMap> direct() const { return {}; }
@@ -52,6 +53,8 @@ class SlidingProblem {
 
     /// What else the result says.
     virtual void record(ExtremalMap&) const {}
+    /// Adds what is proved about K*, whatever the iteration has found.
+    virtual void prove(ExtremalMap&) const {}
 
   protected:
     /// @param given    kept by reference
@@ -59,15 +62,18 @@ class SlidingProblem {
     /// @param kind     of the vertices between which edges were split
     /// @param shapes   whose charts are taken where the source is one of theirs
     SlidingProblem(const Surface& given, PreparedProblem prepared, int outer_loop, const char* kind,
-                   const std::vector<const Shape*>& shapes = {});
+                   std::vector<const Shape*> shapes = {});
 
-    int outer_loop() const { return domain_.outer_loop(); }
+    int outer_loop() const { return outer_loop_; }
 
   private:
+    const Surface& given_;
     PreparedProblem prepared_;
     const Surface& source_;
-    CircleDomainChart domain_;
+    int outer_loop_;
     const char* kind_;
+    std::vector<const Shape*> shapes_;
+    mutable std::optional<CircleDomainChart> domain_;
 };
 
 }  // namespace beltrami

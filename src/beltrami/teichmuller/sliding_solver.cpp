@@ -9,6 +9,7 @@
 #include <beltrami/teichmuller/hamilton_options.h>
 #include <beltrami/teichmuller/record.h>
 #include <beltrami/teichmuller/record_proofs.h>
+#include <beltrami/unfold/local_unfold.h>
 
 namespace beltrami {
 
@@ -32,6 +33,13 @@ bool better_end(const ExtremalMap& a, const ExtremalMap& b) {
     const std::size_t folds = a.distortion.flipped.size(), others = b.distortion.flipped.size();
     if (folds != others) return folds < others;
     return a.termination == Termination::converged && b.termination != Termination::converged;
+}
+
+/// Vertices that slide stay where they are.
+std::vector<Freedom> fixed_or_free(std::vector<Freedom> freedoms) {
+    for (Freedom& freedom : freedoms)
+        if (freedom != Freedom::free) freedom = Freedom::fixed;
+    return freedoms;
 }
 
 /// Whether an arc of a loop is prescribed, not only single vertices.
@@ -79,8 +87,10 @@ ExtremalMap SlidingSolver::solve() {
         result.warnings = problem_->warnings();
     } else {
         result = problem_->has_given_start() ? settled_from_given_start() : settled();
+        problem_->prove(result);
     }
     record_shortcomings(result);
+    warn_of_crushed_faces(result);
     result.split = problem_->split();
     problem_->record(result);
     return result;
@@ -242,8 +252,23 @@ void SlidingSolver::solve_conformal(ExtremalMap& result) {
     result.termination = settled ? Termination::converged : Termination::iteration_limit;
     result.map = step_->map();
     result.distortion = distortion(source().operators, result.map);
+    if (options_.remove_folds && !result.distortion.flipped.empty()) open_conformal_folds(result);
     result.phi = Eigen::VectorXcd::Zero(source().operators.sample_count());
     result.K_max = result.distortion.K_max();
+}
+
+/// Opens folds of the map, or of its start, which where the boundary is crowded has fewer: the steps' remainder is
+/// larger than the faces there.
+void SlidingSolver::open_conformal_folds(ExtremalMap& result) const {
+    for (const Eigen::VectorXcd& map : {result.map, begun_.start}) {
+        LocalUnfolding opened = unfold_locally(source(), fixed_or_free(boundary_->freedoms()), map);
+        result.factorizations += opened.factorizations;
+        if (!opened.fold_free) continue;
+        result.map = std::move(opened.map);
+        result.distortion = distortion(source().operators, result.map);
+        result.folds_removed = true;
+        return;
+    }
 }
 
 /// How far the map obeys its conditions.
