@@ -15,6 +15,8 @@ namespace {
 /// δ of the rounded |φ| as part of its mean, per edge length of a sample in a domain of diameter 2: about |φ| at a
 /// fraction of an edge from a simple zero.
 constexpr double kRounding = 0.4;
+/// On the nodes of cells, which do not become denser as samples do, at least this.
+constexpr double kLeastRoundingOnCells = 0.005;
 /// Where curves are, Newton's method needs the Hessian of what it minimises: so many clusters, at least.
 constexpr int kClustersWithCurves = 12000;
 /// Without a start, Newton's method begins with these values of δ, on the clusters.
@@ -29,23 +31,45 @@ Complex clipped(Complex mu, double clip) {
     return size > clip ? mu * (clip / size) : mu;
 }
 
+/// Points of the canonical domain itself.
+ChartPoints in_domain(const Eigen::VectorXcd& points) {
+    return {points, Eigen::VectorXcd::Ones(points.size())};
+}
+
+Eigen::VectorXd areas_in_domain(const Operators& operators, const Chart& chart) {
+    Eigen::VectorXd areas(operators.sample_count());
+    for (int s = 0; s < operators.sample_count(); ++s)
+        areas[s] = chart.excluded[s] ? 0.0 : operators.weights[s] * std::norm(chart.derivatives[s]);
+    return areas;
+}
+
 }  // namespace
 
 CoefficientStep::CoefficientStep(const Surface& source, const Chart& chart, const Singularities& singularities,
-                                 double phase, int cluster_count)
+                                 double phase, int cluster_count, Sums sums)
     : source_(source),
       chart_(chart),
+      singularities_(singularities),
+      phase_(phase),
+      cluster_count_(cluster_count),
       sampled_(chart, singularities, phase),
-      clusters_(cluster_samples(
-          source.operators, chart, singularities, phase,
-          singularities.curves.empty() ? cluster_count : std::max(cluster_count, kClustersWithCurves))) {
+      areas_(areas_in_domain(source.operators, chart)) {
     soft_ = !singularities.curves.empty();
-    SamplePoints means = points_near(singularities, source, chart);
+    edge_ = std::sqrt(areas_.sum() / static_cast<double>(source.operators.sample_count()));
+    if (sums == Sums::over_cells && singularities.empty() && chart.positions.size() > cluster_count) {
+        cells_.emplace(chart, areas_, phase);
+        quadrature_ = {cells_->nodes(), cells_->node_weights(areas_)};
+    } else {
+        make_clusters();
+    }
+}
+
+void CoefficientStep::make_clusters() {
+    clusters_ = cluster_samples(source_.operators, chart_, singularities_, phase_,
+                                soft_ ? std::max(cluster_count_, kClustersWithCurves) : cluster_count_);
+    SamplePoints means = points_near(singularities_, source_, chart_);
     set_quadrature(means);
     sampled_.set_means(std::move(means));
-    double area = 0;
-    for (const double a : clusters_.squared) area += a;
-    edge_ = std::sqrt(area / static_cast<double>(source.operators.sample_count()));
 }
 
 /// The clusters' points; where a cluster is one sample that has several, those.
@@ -56,7 +80,7 @@ void CoefficientStep::set_quadrature(const SamplePoints& means) {
     for (std::size_t s = 0; s < clusters_.cluster.size(); ++s)
         if (clusters_.cluster[s] >= 0) {
             ++samples[clusters_.cluster[s]];
-            area[clusters_.cluster[s]] += clusters_.squared[s];
+            area[clusters_.cluster[s]] += areas_[static_cast<Eigen::Index>(s)];
         }
     std::vector<Complex> places;
     std::vector<char> divided(clusters, 0);
@@ -93,11 +117,17 @@ Eigen::VectorXd CoefficientStep::at_points(const Eigen::VectorXd& of_samples) co
 void CoefficientStep::set_space(const DifferentialSpace& space) {
     sampled_.set(space);
     last_coefficients_.resize(0);
-    problem_.basis = space.tabulated()
-                         ? means_over_clusters(*space.tabulated(), clusters_, chart_)
-                         : space.evaluate({quadrature_.points, Eigen::VectorXcd::Ones(quadrature_.points.size())});
-    if (space.tabulated() && space.transform()) problem_.basis = complex_product(problem_.basis, *space.transform());
     problem_.complex_coefficients = space.complex_coefficients();
+    on_cells_ = cells_.has_value() && !space.tabulated();
+    if (on_cells_) {
+        problem_.basis = space.evaluate(in_domain(cells_->nodes()));
+        at_places_ = SplitMatrix(space.generators(in_domain(cells_->places())));
+        return;
+    }
+    if (clusters_.cluster.empty()) make_clusters();
+    problem_.basis = space.tabulated() ? means_over_clusters(*space.tabulated(), clusters_, chart_)
+                                       : space.evaluate(in_domain(quadrature_.points));
+    if (space.tabulated() && space.transform()) problem_.basis = complex_product(problem_.basis, *space.transform());
 }
 
 const Eigen::VectorXcd& CoefficientStep::values(const Eigen::VectorXcd& coefficients) {
@@ -115,7 +145,7 @@ Eigen::VectorXcd CoefficientStep::coefficient(double k, const Eigen::VectorXcd& 
         for (Eigen::Index s = 0; s < phi.size(); ++s) {
             if (chart_.excluded[s]) continue;
             sum += source_.operators.weights[s] * std::abs(phi[s]);  // |ψ| by area in the domain
-            area += clusters_.squared[s];
+            area += areas_[s];
         }
         delta = area > 0 ? std::max(least_rounding_, kRounding * edge_) * sum / area : 0.0;
     }
@@ -195,26 +225,33 @@ class SampleNorm final : public DualNorm {
 
 }  // namespace
 
+CoefficientStep::Weights CoefficientStep::weights_of(const Eigen::VectorXcd& mu) const {
+    const int samples = source_.operators.sample_count();
+    Weights weights{Eigen::VectorXcd::Zero(samples), Eigen::VectorXd::Zero(samples)};
+    parallel_for(0, samples, [&](int first, int last) {
+        for (int s = first; s < last; ++s) {
+            if (chart_.excluded[s]) continue;
+            const Complex m = clipped(mu[s], clip_);
+            const double square = std::norm(m), area = source_.operators.weights[s];
+            weights.pairing[s] = area / (1 - square) * m;
+            weights.norm[s] = area * (1 + square) / (1 - square);
+        }
+    });
+    return weights;
+}
+
 CoefficientStep::Result CoefficientStep::solve(const Eigen::VectorXcd& mu, const Eigen::VectorXcd& start, double step,
                                                int newton_steps) {
-    const int samples = source_.operators.sample_count();
-    Eigen::MatrixXcd pairing_weight = Eigen::MatrixXcd::Zero(samples, 1);  // A b
-    Eigen::VectorXd norm_weight = Eigen::VectorXd::Zero(samples);          // A a
-    Eigen::VectorXd cluster_weight = Eigen::VectorXd::Zero(clusters_.points.positions.size());
-    for (int s = 0; s < samples; ++s) {
-        if (chart_.excluded[s]) continue;
-        const Complex m = clipped(mu[s], clip_);
-        const double square = std::norm(m), area = source_.operators.weights[s];
-        pairing_weight(s, 0) = area / (1 - square) * m;
-        norm_weight[s] = area * (1 + square) / (1 - square);
-        cluster_weight[clusters_.cluster[s]] += clusters_.squared[s] * (1 + square) / (1 - square);
-    }
-    norm_weight = at_points(norm_weight);
-    problem_.weights.resize(static_cast<Eigen::Index>(parts_.size()));
-    for (std::size_t q = 0; q < parts_.size(); ++q)
-        problem_.weights[static_cast<Eigen::Index>(q)] = parts_[q].part * cluster_weight[parts_[q].cluster];
-    problem_.pairing = sampled_.pair(pairing_weight);
-    const SampleNorm norm(sampled_, chart_, norm_weight, last_coefficients_, last_values_);
+    DualOptions options;
+    options.max_steps = newton_steps;
+    options.step = step;
+    if (start.size() > 0) options.reach = moved_;
+    const Weights weights = weights_of(mu);
+    return on_cells_ ? solve_on_cells(weights, start, std::move(options))
+                     : solve_on_samples(weights, start, std::move(options));
+}
+
+Eigen::VectorXcd CoefficientStep::begin(const Eigen::VectorXcd& start) {
     Eigen::VectorXcd at = start;
     DualOptions cold;
     cold.step = kColdStep;
@@ -225,11 +262,59 @@ CoefficientStep::Result CoefficientStep::solve(const Eigen::VectorXcd& mu, const
             at = solve_dual(problem_, at, cold).coefficients;
         }
     problem_.rounding = std::max(least_rounding_, kRounding * edge_);
-    DualOptions options;
-    options.max_steps = newton_steps;
-    options.step = step;
+    if (on_cells_) problem_.rounding = std::max(problem_.rounding, kLeastRoundingOnCells);
+    return at;
+}
+
+CoefficientStep::Result CoefficientStep::solve_on_cells(const Weights& weights, const Eigen::VectorXcd& start,
+                                                        DualOptions options) {
+    const Eigen::VectorXcd square = chart_.derivatives.cwiseProduct(chart_.derivatives);
+    problem_.weights = cells_->node_weights(weights.norm.cwiseProduct(square.cwiseAbs()));
+    problem_.pairing = sampled_.space().from_generators(
+        at_places_.transposed_times(cells_->place_weights(weights.pairing.cwiseProduct(square))));
+    const Eigen::VectorXcd at = begin(start);
+    const DualSolution dual = solve_dual(problem_, at, options);
+    moved_ = dual.moved;
+
+    Result result;
+    result.converged = dual.converged;
+    result.newton_steps = dual.newton_steps;
+    const double length = dual.coefficients.norm();
+    result.direction = length > 0 ? Eigen::VectorXcd(dual.coefficients / length) : dual.coefficients;
+    result.phi = values(result.direction);
+    double pairing = 0, norm = 0, plain = 0;
+    for (Eigen::Index i = 0; i < result.phi.size(); ++i) {
+        if (chart_.excluded[i]) continue;
+        const double size = std::sqrt(std::norm(result.phi[i]));
+        pairing += std::real(weights.pairing[i] * result.phi[i]);
+        norm += weights.norm[i] * size;
+        plain += source_.operators.weights[i] * size;
+    }
+    set_dilatation(pairing, norm, plain, result);
+    return result;
+}
+
+void CoefficientStep::set_dilatation(double pairing, double norm, double plain, Result& result) {
+    if (!(norm > 0)) return;
+    result.k = dilatation_of_pairing(2 * pairing / norm);
+    result.merit = plain / (norm - 2 * pairing);
+}
+
+CoefficientStep::Result CoefficientStep::solve_on_samples(const Weights& weights, const Eigen::VectorXcd& start,
+                                                          DualOptions options) {
+    const int samples = source_.operators.sample_count();
+    Eigen::VectorXd cluster_weight = Eigen::VectorXd::Zero(clusters_.points.positions.size());
+    for (int s = 0; s < samples; ++s)
+        if (clusters_.cluster[s] >= 0)
+            cluster_weight[clusters_.cluster[s]] += weights.norm[s] * std::norm(chart_.derivatives[s]);
+    const Eigen::VectorXd norm_weight = at_points(weights.norm);
+    problem_.weights.resize(static_cast<Eigen::Index>(parts_.size()));
+    for (std::size_t q = 0; q < parts_.size(); ++q)
+        problem_.weights[static_cast<Eigen::Index>(q)] = parts_[q].part * cluster_weight[parts_[q].cluster];
+    problem_.pairing = sampled_.pair(weights.pairing);
+    const SampleNorm norm(sampled_, chart_, norm_weight, last_coefficients_, last_values_);
+    const Eigen::VectorXcd at = begin(start);
     options.norm = &norm;
-    if (start.size() > 0) options.reach = moved_;
     const DualSolution dual = solve_dual(problem_, at, options);
     moved_ = dual.moved;
 
@@ -244,14 +329,12 @@ CoefficientStep::Result CoefficientStep::solve(const Eigen::VectorXcd& mu, const
     if (!(size > 0)) return result;
     last_coefficients_ = result.direction;
     last_values_ = result.phi;
-    const double pairing = dual.pairing / length;
-    result.k = dilatation_of_pairing(2 * pairing / size);
     const Eigen::VectorXd areas =
         at_points(Eigen::Map<const Eigen::VectorXd>(source_.operators.weights.data(), samples));
     double plain = 0;
     for (Eigen::Index i = 0; i < phi.size(); ++i)
         if (norm_weight[i] > 0) plain += areas[i] * std::sqrt(std::norm(phi[i]));
-    result.merit = plain / (size - 2 * pairing);
+    set_dilatation(dual.pairing / length, size, plain, result);
     return result;
 }
 

@@ -8,15 +8,13 @@
 
 namespace beltrami {
 
-namespace {
-
-double norm_factor(int j) {
-    return std::sqrt((j + 1) / std::numbers::pi);
+PolynomialSpace::PolynomialSpace(int degree, int largest_degree)
+    : degree_(degree), largest_degree_(largest_degree), factors_(degree + 1) {
+    for (int j = 0; j <= degree; ++j) {
+        powers_.push_back({0.0, 1.0, -j});
+        factors_[j] = std::sqrt((j + 1) / std::numbers::pi);
+    }
 }
-
-}  // namespace
-
-PolynomialSpace::PolynomialSpace(int degree, int largest_degree) : degree_(degree), largest_degree_(largest_degree) {}
 
 int PolynomialSpace::largest_degree(int sample_count) {
     // A polynomial of degree d turns d times along the circle, which has about 3.5 √(samples) edges: keep 16 edges a
@@ -34,7 +32,7 @@ Eigen::MatrixXcd PolynomialSpace::generators(const ChartPoints& points) const {
         const int count = end - begin;
         Eigen::VectorXcd power = points.derivatives.segment(begin, count).array().square();
         for (int j = 0; j <= degree_; ++j) {
-            values.col(j).segment(begin, count) = norm_factor(j) * power;
+            values.col(j).segment(begin, count) = factors_[j] * power;
             power.array() *= points.positions.segment(begin, count).array();
         }
     });
@@ -42,22 +40,15 @@ Eigen::MatrixXcd PolynomialSpace::generators(const ChartPoints& points) const {
 }
 
 Eigen::VectorXcd PolynomialSpace::combination(const ChartPoints& points, const Eigen::VectorXcd& coefficients) const {
-    Eigen::VectorXcd scaled = coefficients;
-    for (int j = 0; j < size(); ++j) scaled[j] *= norm_factor(j);
-    Eigen::VectorXcd values(points.positions.size());
-    parallel_for(0, static_cast<int>(points.positions.size()), [&](int begin, int end) {
-        for (int i = begin; i < end; ++i) {
-            const Complex z = points.positions[i];
-            double re = 0, im = 0;
-            for (int j = degree_; j >= 0; --j) {
-                const double next = re * z.real() - im * z.imag() + scaled[j].real();
-                im = re * z.imag() + im * z.real() + scaled[j].imag();
-                re = next;
-            }
-            values[i] = Complex(re, im) * points.derivatives[i] * points.derivatives[i];
-        }
-    });
-    return values;
+    const Eigen::VectorXcd values =
+        pole_combination(powers_, points.positions, factors_.cast<Complex>().cwiseProduct(coefficients));
+    return values.cwiseProduct(points.derivatives.cwiseProduct(points.derivatives));
+}
+
+Eigen::MatrixXcd PolynomialSpace::pair(const ChartPoints& points, const Eigen::MatrixXcd& weights) const {
+    const Eigen::VectorXcd square = points.derivatives.cwiseProduct(points.derivatives);
+    return factors_.cast<Complex>().asDiagonal() *
+           pole_pairing(powers_, points.positions, square.asDiagonal() * weights);
 }
 
 std::unique_ptr<DifferentialSpace> PolynomialSpace::refined() const {

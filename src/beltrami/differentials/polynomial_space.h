@@ -1,11 +1,15 @@
 #pragma once
 
+#include <vector>
+
 #include <beltrami/differentials/differential_space.h>
+#include <beltrami/differentials/pole_sums.h>
 
 namespace beltrami {
 
 /// Polynomials up to a degree on the round unit disk: √((j+1)/π) ζ^j, orthonormal in L² of the disk. On the disk itself
-/// powers are orthogonal, so that no orthogonalisation on samples is needed and combinations cost one Horner scheme.
+/// powers are orthogonal, so that no orthogonalisation on samples is needed and combinations cost no more than sums of
+/// powers.
 class PolynomialSpace final : public DifferentialSpace {
   public:
     /// @param degree         at least 0
@@ -21,10 +25,14 @@ class PolynomialSpace final : public DifferentialSpace {
     bool complex_coefficients() const override { return true; }
     Eigen::MatrixXcd generators(const ChartPoints& points) const override;
     Eigen::VectorXcd combination(const ChartPoints& points, const Eigen::VectorXcd& coefficients) const override;
+    Eigen::MatrixXcd pair(const ChartPoints& points, const Eigen::MatrixXcd& weights) const override;
+    bool quick() const override { return true; }
     std::unique_ptr<DifferentialSpace> refined() const override;
 
   private:
     int degree_, largest_degree_;
+    std::vector<Pole> powers_;
+    Eigen::VectorXd factors_;  ///< of the powers
 };
 
 }  // namespace beltrami

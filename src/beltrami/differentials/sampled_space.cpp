@@ -12,6 +12,8 @@ namespace {
 
 /// Up to so many samples every value is kept: 30 MB for 40 functions.
 constexpr int kMostDenseSamples = 45'000;
+/// On larger ones spaces that compute values quickly do so for so many, samples times functions.
+constexpr double kMostQuickValues = 1e7;
 /// Edge of a cell in a domain of diameter 2. A power of degree 40 turns by less than half a radian from the middle of
 /// a cell to its corner, where the cubic is off by half a percent; one of degree 10 by 1e-5.
 constexpr double kCellSize = 0.018;
@@ -50,27 +52,47 @@ Eigen::MatrixXcd SampledSpace::pair_at_means(const Eigen::MatrixXcd& weights) co
     return space_->from_generators(at_means_.transposed_times(weights));
 }
 
-SampledSpace::SampledSpace(const Chart& chart, const Singularities& singularities, double phase) : chart_(chart) {
-    const auto samples = chart.positions.size();
-    if (samples <= kMostDenseSamples) return;
-    grid_ = chart_grid(chart, phase, CellSize(kCellSize, singularities, kCellSlope, kHoleSlope, kSmallestCell));
+SampledSpace::SampledSpace(const Chart& chart, const Singularities& singularities, double phase)
+    : chart_(chart),
+      phase_(phase),
+      cell_size_(kCellSize, singularities, kCellSlope, kHoleSlope, kSmallestCell),
+      large_(chart.positions.size() > kMostDenseSamples) {}
+
+/// Whether values of a space are computed each time.
+bool SampledSpace::made_afresh(const DifferentialSpace& space) const {
+    return space.quick() &&
+           (!large_ ||
+            static_cast<double>(space.size()) * static_cast<double>(chart_.positions.size()) <= kMostQuickValues);
+}
+
+/// Sorts the samples into cells, unless these would be nearly as many.
+SampledSpace::Mode SampledSpace::mode_on_large_mesh() {
+    const auto samples = chart_.positions.size();
+    grid_ = chart_grid(chart_, phase_, cell_size_);
     if (kNodes * grid_.cell_count() > samples / 2) {
-        large_ = Mode::afresh;
         grid_ = {{}, {0}, {}, {}};
-        return;
+        return Mode::afresh;
     }
-    large_ = Mode::interpolated;
     // Each cell about the mean of its samples, which a cell at the rim may have on one side only.
     centres_ = Eigen::VectorXcd::Zero(grid_.cell_count());
     for (int c = 0; c < grid_.cell_count(); ++c) {
-        for (int i = grid_.offsets[c]; i < grid_.offsets[c + 1]; ++i) centres_[c] += chart.positions[grid_.samples[i]];
+        for (int i = grid_.offsets[c]; i < grid_.offsets[c + 1]; ++i) centres_[c] += chart_.positions[grid_.samples[i]];
         centres_[c] /= static_cast<double>(grid_.offsets[c + 1] - grid_.offsets[c]);
     }
+    return Mode::interpolated;
 }
 
 void SampledSpace::set(const DifferentialSpace& space) {
     space_ = &space;
-    mode_ = space.tabulated() ? Mode::dense : large_.value_or(space.quick() ? Mode::afresh : Mode::dense);
+    mode_ = Mode::dense;
+    if (!space.tabulated()) {
+        if (made_afresh(space)) {
+            mode_ = Mode::afresh;
+        } else if (large_) {
+            if (!on_grid_) on_grid_ = mode_on_large_mesh();
+            mode_ = *on_grid_;
+        }
+    }
     values_ = {};
     if (mode_ == Mode::afresh) return;
     if (mode_ == Mode::dense) {

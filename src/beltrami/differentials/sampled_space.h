@@ -24,10 +24,11 @@ void take_means(const SamplePoints& means, const Eigen::MatrixXcd& at_points, Ei
 /// basis function with weights at the samples.
 ///
 /// On small meshes the values of all functions at all samples are kept, unless the space computes them as quickly. On
-/// large ones functions are evaluated at four nodes per cell of a grid over the canonical domain only: inside a cell a
-/// holomorphic function is its cubic interpolant through four points of a circle. That costs a few operations a sample
-/// instead of a few per function and sample. Where singularities would ask for nearly as many cells as samples,
-/// functions are evaluated afresh each time. A tabulated space is its values at all samples, whatever their number.
+/// large ones, and where that would be many values still, functions are evaluated at four nodes per cell of a grid over
+/// the canonical domain only: inside a cell a holomorphic function is its cubic interpolant through four points of a
+/// circle. That costs a few operations a sample instead of a few per function and sample. Where singularities would ask
+/// for nearly as many cells as samples, functions are evaluated afresh each time. A tabulated space is its values at
+/// all samples, whatever their number.
 class SampledSpace {
   public:
     /// @param chart kept by reference
@@ -54,6 +55,8 @@ class SampledSpace {
   private:
     enum class Mode { dense, interpolated, afresh };
 
+    bool made_afresh(const DifferentialSpace& space) const;
+    Mode mode_on_large_mesh();
     Eigen::VectorXcd interpolate(const Eigen::VectorXcd& at_nodes) const;
     Eigen::MatrixXcd gather(const Eigen::MatrixXcd& weights) const;
     ChartPoints chunk(int first, int last) const;
@@ -61,8 +64,11 @@ class SampledSpace {
     const Chart& chart_;
     SamplePoints means_;
     const DifferentialSpace* space_ = nullptr;
-    std::optional<Mode> large_;  ///< on a large mesh, of every space that can be evaluated anywhere
-    Mode mode_ = Mode::dense;    ///< of the current space
+    double phase_;
+    CellSize cell_size_;
+    bool large_;                   ///< the mesh
+    std::optional<Mode> on_grid_;  ///< of spaces that are not made afresh on a large mesh, once there was one
+    Mode mode_ = Mode::dense;      ///< of the current space
     ChartGrid grid_{{}, {0}, {}, {}};
     Eigen::VectorXcd centres_;  ///< #cells
     SplitMatrix at_means_;      ///< of the generators: #points of the means × g

@@ -16,6 +16,12 @@ CellSize::CellSize(double largest, const Singularities& singularities, double sl
         for (int i = curve.first; i < curve.last; ++i) edges_.push_back({curve.points[i], curve.points[i + 1]});
 }
 
+void CellSize::shrink_towards_circle(double slope, double least) {
+    circle_slope_ = slope;
+    least_at_circle_ = least;
+    deepest_ = std::max(deepest_, static_cast<int>(std::ceil(std::log2(largest_ / least))));
+}
+
 namespace {
 
 double squared_distance(Complex z, const std::array<Complex, 2>& edge) {
@@ -31,6 +37,10 @@ int CellSize::level(Complex z) const {
     double square = largest_ * largest_;
     for (const Centre& centre : centres_) square = std::min(square, centre.squared_slope * std::norm(z - centre.at));
     for (const auto& edge : edges_) square = std::min(square, squared_slope_ * squared_distance(z, edge));
+    if (circle_slope_ > 0) {
+        const double size = std::max(circle_slope_ * (1 - std::abs(z)), least_at_circle_);
+        square = std::min(square, size * size);
+    }
     if (square >= largest_ * largest_) return 0;
     if (!(square > 0)) return deepest_;
     return std::min(deepest_, static_cast<int>(std::ceil(0.5 * std::log2(largest_ * largest_ / square))));

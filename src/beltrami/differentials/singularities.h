@@ -68,6 +68,10 @@ class CellSize {
     /// @param least      no cell is smaller
     CellSize(double largest, const Singularities& singularities, double slope, double hole_slope, double least);
     explicit CellSize(double largest) : largest_(largest) {}
+    /// Cells are also smaller near the unit circle, on the inside.
+    /// @param slope cell size per distance to the circle
+    /// @param least the circle makes no cell smaller than this
+    void shrink_towards_circle(double slope, double least);
 
     double largest() const { return largest_; }
     /// How often the largest size is to be halved at a place.
@@ -83,6 +87,7 @@ class CellSize {
     std::vector<Centre> centres_;
     std::vector<std::array<Complex, 2>> edges_;  ///< of the curves
     double squared_slope_ = 0;                   ///< of these
+    double circle_slope_ = 0, least_at_circle_ = 0;
 };
 
 }  // namespace beltrami

@@ -147,7 +147,9 @@ int ExtremalProblem::largest_degree() const {
 
 void ExtremalProblem::set_singularities(Singularities singularities, int cluster_count) {
     singularities_ = std::move(singularities);
-    coefficient_step_.emplace(domain(), chart_, singularities_, phase_, cluster_count);
+    // In the plane of a chart the rim's noise is larger than what cells leave out.
+    coefficient_step_.emplace(domain(), chart_, singularities_, phase_, cluster_count,
+                              chart_metric_ ? CoefficientStep::Sums::over_cells : CoefficientStep::Sums::over_samples);
 }
 
 QuadraticDifferential ExtremalProblem::differential(std::shared_ptr<const DifferentialSpace> space,
