@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <beltrami/base/parallel.h>
+#include <beltrami/coefficient/coefficient_step.h>
+#include <beltrami/differentials/polynomial_space.h>
 #include <beltrami/operators/distortion.h>
 
 namespace beltrami {
@@ -12,6 +15,9 @@ namespace {
 
 /// Of a sample that the chart collapses to a point.
 constexpr double kLeastScale = 1e-100;
+/// To which c-steps are solved that measure noise, as part of φ: k is exact to the square.
+constexpr double kNoiseStep = 0.1;
+constexpr int kNoiseSteps = 20;
 
 /// The surface with other positions; its operators are those of the old ones still.
 Surface in_plane_of(const Surface& source, const Eigen::VectorXcd& z) {
@@ -86,6 +92,18 @@ Eigen::VectorXcd ChartMetric::coefficient_on_surface(const Eigen::VectorXcd& nu)
 
 Eigen::VectorXcd ChartMetric::differential_on_surface(const Eigen::VectorXcd& phi) const {
     return phi.cwiseProduct(derivatives_.cwiseProduct(derivatives_));
+}
+
+double chart_noise(const Surface& source, const Chart& chart, const Eigen::VectorXcd& map, int degree, double phase,
+                   int cluster_count) {
+    CoefficientStep step(source, chart, {}, phase, cluster_count, CoefficientStep::Sums::over_cells);
+    const PolynomialSpace space(degree, degree);
+    step.set_space(space);
+    const auto k_of = [&](const Eigen::VectorXcd& f) {
+        return step.solve(beltrami_coefficient(source.operators, f), {}, kNoiseStep, kNoiseSteps).k;
+    };
+    const double k = k_of(map);
+    return k > 0 ? k_of(chart.vertices) / k : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace beltrami

@@ -43,4 +43,11 @@ class ChartMetric {
     double chart_mean_ = 0;
 };
 
+/// k that φ up to a degree sees in a round disk's chart itself, in the surface's metric, as part of the k that it sees
+/// in a map: noise, for the truth is 0.
+/// @param map   #V
+/// @param phase, cluster_count see CoefficientStep
+double chart_noise(const Surface& source, const Chart& chart, const Eigen::VectorXcd& map, int degree, double phase,
+                   int cluster_count);
+
 }  // namespace beltrami

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include <beltrami/charts/round_disk.h>
+#include <beltrami/differentials/polynomial_space.h>
 #include <beltrami/generate/round_domains.h>
 #include <beltrami/teichmuller/hamilton_options.h>
 #include <beltrami/teichmuller/problem.h>
@@ -58,7 +59,7 @@ CircleValues circle_values(const Surface& source, const BoundaryCondition& bound
 }  // namespace
 
 CoarseStart coarse_start(const Surface& source, const BoundaryCondition& boundary, const Chart& chart, double phase,
-                         int largest_degree, const ExtremalOptions& options, int least_samples) {
+                         int largest_degree, const ExtremalOptions& options, int least_samples, bool grown) {
     if (source.operators.sample_count() < least_samples) return {};
     const CircleValues values = circle_values(source, boundary, chart);
     if (values.angle.empty()) return {};
@@ -79,7 +80,8 @@ CoarseStart coarse_start(const Surface& source, const BoundaryCondition& boundar
     }
     ExtremalProblem problem(model, coarse, 1);
     problem.set_chart(round_disk_chart(model, problem.solver()));
-    problem.set_singularities({}, options.cluster_count);
+    problem.set_singularities({}, options.cluster_count,
+                              grown ? CoefficientStep::Sums::over_cells : CoefficientStep::Sums::over_samples);
     HamiltonIteration::Options coarse_options = iteration_options(options);
     coarse_options.progress = {};
     coarse_options.grow_last = false;
@@ -89,7 +91,8 @@ CoarseStart coarse_start(const Surface& source, const BoundaryCondition& boundar
     CoarseStart result;
     // The degrees that the fine mesh resolves: on the coarse one the highest are rough, which is good enough for a
     // start.
-    iteration.run(result.state, problem.starting_space(largest_degree));
+    iteration.run(result.state, grown ? std::make_unique<PolynomialSpace>(largest_degree, largest_degree)
+                                      : problem.starting_space(largest_degree));
     result.tight =
         iteration.converged() && bracket(iteration.last_step()) * model.mesh.face_count() < kTightPerTriangle;
     return result;

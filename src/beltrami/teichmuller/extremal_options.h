@@ -35,11 +35,11 @@ struct ExtremalOptions : IterationOptions {
     /// Where the boundary slides, in part or as a whole, only always does; sliding vertices then keep their places.
     enum class Evening { where_needed, always, never };
     Evening evening = Evening::where_needed;
-    /// A disk in space is solved in the plane of its chart (chart_metric.h) and measured on the surface: quicker on
-    /// scans, but k and K are then those of the degree of φ that the rim resolves, below what the polygon's corners
-    /// force. Without slack the surface's own metric is taken unless this asks for the chart's; with slack the chart's
-    /// always.
-    bool chart_metric = false;
+    /// Whether a disk in space is solved in the plane of its chart (chart_metric.h) and measured on the surface: K is
+    /// then that of the boundary values as φ of the degree sees them that the rim resolves. Empty: with slack, and
+    /// where the noise that linear elements near a coarse rim have in the surface's metric is more than 3 % of k, as on
+    /// most scans: k of the chart itself, of which the truth is 0. Planar meshes have the one metric.
+    std::optional<bool> chart_metric;
     /// Boundary points of a disk may move along the target by so many edges (boundary_slack.h), where the outline is
     /// not known better.
     double slack = 0;

@@ -32,7 +32,8 @@ class PoleChoice {
 
   private:
     std::ptrdiff_t image_corners() const;
-    bool corners_are_noise() const;
+    std::vector<BoundaryCorner> clear_corners() const;
+    bool wants_chart_metric() const;
     Singularities take_chart(Chart chart, const Eigen::VectorXcd& at);
     Singularities take_instead(const Eigen::VectorXcd& at);
 

@@ -102,9 +102,10 @@ void PrescribedSolver::choose_start() {
     } else if (!wanted_.turns.empty()) {
         map = start_in_class(source_, problem_.chart().vertices, wanted_.outer_loop, boundary_, wanted_.turns).map;
     } else if (poles_.smooth() && !poles_.elongated() && !state_.space) {
-        state_ =
-            coarse_start(source_, boundary_, problem_.chart(), problem_.phase(), problem_.largest_degree(), options_)
-                .state;
+        const bool in_plane = problem_.chart_metric() != nullptr;
+        state_ = coarse_start(source_, boundary_, problem_.chart(), problem_.phase(), problem_.largest_degree(),
+                              options_, in_plane ? kCoarseStartPaysInPlane : kCoarseStartPays, in_plane)
+                     .state;
     }
     start_ = state_.space ? Eigen::VectorXcd() : map;
 }

@@ -121,13 +121,18 @@ bool ExtremalProblem::is_disk_in_space() const {
            boundary_.vertices.size() == source_.topology.boundary_loops[0].size();
 }
 
-bool ExtremalProblem::take_chart_metric() {
-    if (!is_disk_in_space()) return false;
-    if (!is_round(source_, chart_) || !(unseen_part(source_, chart_) < kMostUnseen)) return false;
+bool ExtremalProblem::chart_metric_possible() const {
+    return is_disk_in_space() && is_round(source_, chart_) && unseen_part(source_, chart_) < kMostUnseen;
+}
+
+double ExtremalProblem::chart_noise(int cluster_count) const {
+    return beltrami::chart_noise(source_, chart_, harmonic_, largest_degree(), phase_, cluster_count);
+}
+
+void ExtremalProblem::take_chart_metric() {
     chart_metric_ = std::make_unique<ChartMetric>(source_, chart_);
     chart_ = chart_metric_->chart();
     step_in_chart_.emplace(map_step_, *chart_metric_);
-    return true;
 }
 
 MapStep& ExtremalProblem::step_in_domain() {
@@ -146,10 +151,13 @@ int ExtremalProblem::largest_degree() const {
 }
 
 void ExtremalProblem::set_singularities(Singularities singularities, int cluster_count) {
+    set_singularities(std::move(singularities), cluster_count,
+                      chart_metric_ ? CoefficientStep::Sums::over_cells : CoefficientStep::Sums::over_samples);
+}
+
+void ExtremalProblem::set_singularities(Singularities singularities, int cluster_count, CoefficientStep::Sums sums) {
     singularities_ = std::move(singularities);
-    // In the plane of a chart the rim's noise is larger than what cells leave out.
-    coefficient_step_.emplace(domain(), chart_, singularities_, phase_, cluster_count,
-                              chart_metric_ ? CoefficientStep::Sums::over_cells : CoefficientStep::Sums::over_samples);
+    coefficient_step_.emplace(domain(), chart_, singularities_, phase_, cluster_count, sums);
 }
 
 QuadraticDifferential ExtremalProblem::differential(std::shared_ptr<const DifferentialSpace> space,
@@ -164,7 +172,11 @@ std::unique_ptr<DifferentialSpace> ExtremalProblem::starting_space(int largest_d
         return PolynomialSpace::starting_space(largest_degree);
     }
     const QuadraturePoints& quadrature = coefficient_step_->quadrature();
-    return RationalSpace::starting_space(singularities_, {quadrature.points, quadrature.weights}, largest_degree);
+    std::unique_ptr<DifferentialSpace> space =
+        RationalSpace::starting_space(singularities_, {quadrature.points, quadrature.weights}, largest_degree);
+    if (chart_metric_)
+        while (auto larger = space->refined()) space = std::move(larger);
+    return space;
 }
 
 namespace {

@@ -28,11 +28,19 @@ class ExtremalProblem {
     void set_chart(Chart chart);
     /// Whether the source is a disk in space, or with a metric of its own, of which only the boundary is prescribed.
     bool is_disk_in_space() const;
-    /// Takes the plane of the chart that was set as the metric of the iteration, where that is right: of a disk in
-    /// space whose chart turns over next to nothing of itself.
-    /// @return whether it has
-    bool take_chart_metric();
+    /// Whether the plane of the chart that was set can be the metric of the iteration: of a disk in space whose chart
+    /// turns over next to nothing of itself.
+    bool chart_metric_possible() const;
+    /// The k that the surface's metric would give the chart itself, as part of that of the harmonic map
+    /// (chart_metric.h).
+    double chart_noise(int cluster_count) const;
+    /// Takes the plane of the chart as the metric of the iteration.
+    /// @pre chart_metric_possible()
+    void take_chart_metric();
     /// Takes where φ may be singular, in the chart that was set: the c-step is known from then on.
+    /// @param sums see CoefficientStep
+    void set_singularities(Singularities singularities, int cluster_count, CoefficientStep::Sums sums);
+    /// The same, on cells in the plane of a chart, where the rim's noise is larger than what cells leave out.
     void set_singularities(Singularities singularities, int cluster_count);
 
     const Surface& source() const { return source_; }
@@ -76,7 +84,7 @@ class ExtremalProblem {
     /// The largest degree of φ that the mesh resolves, and where the chart is round its rim too.
     int largest_degree() const;
     /// A first space for the singularities, which can grow up to a degree. In the plane of a chart, where no noise
-    /// forbids it, it has that degree at once.
+    /// forbids it and poles come to a map that has settled without them, it has grown at once.
     std::unique_ptr<DifferentialSpace> starting_space(int largest_degree) const;
 
   private:

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include <beltrami/charts/boundary_values.h>
 #include <beltrami/charts/round_disk.h>
 #include <beltrami/operators/distortion.h>
 #include <beltrami/solve/beltrami_solver.h>
@@ -114,9 +115,21 @@ TEST(ChartMetric, TheChartItselfHasNoDilatation) {
     ASSERT_TRUE(result.in_chart);
     EXPECT_LT(result.in_chart->mean, 1e-6);
     EXPECT_NEAR(result.distortion.mean, result.in_chart->chart_mean, 1e-6);
-    const ExtremalMap surface = extremal_map(source, boundary);
+    ExtremalOptions on_surface;
+    on_surface.chart_metric = false;
+    const ExtremalMap surface = extremal_map(source, boundary, on_surface);
     EXPECT_GT(surface.k, 1e-3);
     EXPECT_FALSE(surface.in_chart);
+}
+
+/// Noise decides which metric is taken unless the options do: that of a rough surface, not that of a smooth one.
+TEST(ChartMetric, IsTakenWhereTheSurfaceIsRough) {
+    for (const bool rough : {true, false}) {
+        const Surface source(rough ? rough_bump() : test::bump(3'000));
+        const ExtremalMap result = extremal_map(source, boundary_to_disk(source, 0.05));
+        EXPECT_EQ(result.in_chart.has_value(), rough);
+        EXPECT_TRUE(result.one_to_one());
+    }
 }
 
 /// A cap of the paraboloid z = r² over the unit disk; its chart in closed form.
