@@ -11,8 +11,8 @@ namespace beltrami {
 
 namespace {
 
-/// A corner is clear from this significance on (those of scans have 1 to 2.5), and where the image turns by so much
-/// (radians).
+/// A corner is clear from this significance on (those of scans have 1 to 2.5), one of the image where that turns by so
+/// much (radians).
 constexpr double kClearCorner = 3, kSharpImage = 0.35;
 /// Noise, as part of k, above which the plane of a chart is taken as the metric. Measured: smooth meshes have .002, a
 /// face of 34 144 triangles .015, where the surface's metric is more exact; scans whose maps it keeps from settling, or
@@ -40,13 +40,14 @@ std::ptrdiff_t PoleChoice::image_corners() const {
 std::vector<BoundaryCorner> PoleChoice::clear_corners() const {
     std::vector<BoundaryCorner> result;
     for (const BoundaryCorner& corner : corners_)
-        if (corner.significance > kClearCorner || turns_image(corner)) result.push_back(corner);
+        if (corner.significance > kClearCorner) result.push_back(corner);
     return result;
 }
 
-/// Whether the plane of the problem's chart is to be the metric of the iteration.
+/// Whether the plane of the problem's chart is to be the metric of the iteration: not where the image has corners, at
+/// which φ needs its poles from the start.
 bool PoleChoice::wants_chart_metric() const {
-    if (!problem_.chart_metric_possible()) return false;
+    if (image_corners() > 0 || !problem_.chart_metric_possible()) return false;
     if (options_.slack > 0) return true;
     return options_.chart_metric ? *options_.chart_metric : problem_.chart_noise(options_.cluster_count) > kNoise;
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include <beltrami/base/error.h>
+#include <beltrami/certificate/chart_quadrilateral.h>
 #include <beltrami/charts/shape.h>
 #include <beltrami/constraints/boundary_feasibility.h>
 #include <beltrami/homotopy/continuation.h>
@@ -325,11 +326,20 @@ void PrescribedSolver::record_bounds(ExtremalMap& result) const {
             InChart{metric->chart_mean(), in_chart.mean, in_chart.standard_deviation, problem_.largest_degree()};
     }
     const SolutionBounds bounds = best_bounds();
+    result.bounds = bounds.bounds;
+    if (problem_.chart_metric()) record_quadrilaterals(result);
     result.K = std::min(bounds.K, result.distortion.K_max());
     result.k = k_of(result.K);
     result.K_lower = bounds.K_lower;
-    result.bounds = bounds.bounds;
     result.factorizations += bounds.factorizations;
+}
+
+/// What quadrilaterals of the rim force in the chart.
+void PrescribedSolver::record_quadrilaterals(ExtremalMap& result) const {
+    std::vector<Complex> images;
+    for (const int v : source_.topology.boundary_loops[0]) images.push_back(found_.map[v]);
+    const double K = chart_quadrilateral_estimate(source_, problem_.chart(), images);
+    if (K > 1) result.bounds.push_back({Bound::Kind::moduli, K, Bound::Of::extremal, false});
 }
 
 SolutionBounds PrescribedSolver::best_bounds() const {

@@ -45,6 +45,7 @@ class PrescribedSolver final : public ProblemSolver {
     ExtremalMap record() const;
     void record_homotopy(ExtremalMap& result) const;
     void record_bounds(ExtremalMap& result) const;
+    void record_quadrilaterals(ExtremalMap& result) const;
     SolutionBounds best_bounds() const;
     void record_corners(ExtremalMap& result) const;
     bool resolved(const BoundaryCorner& corner) const;

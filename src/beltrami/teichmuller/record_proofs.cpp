@@ -23,16 +23,22 @@ double largest_proof(const std::vector<Bound>& bounds) {
 
 void raise_to_proofs(ExtremalMap& result) {
     result.K_lower_proved = largest_proof(result.bounds);
-    result.K_lower = std::max(result.K_lower, result.K_lower_proved);
+    // What quadrilaterals force in the chart is an estimate, but no less a sign that φ does not show the map.
+    double least = result.K_lower_proved;
+    for (const Bound& bound : result.bounds)
+        if (bound.kind == Bound::Kind::moduli) least = std::max(least, bound.K);
+    result.K_lower = std::max(result.K_lower, least);
     const double found = result.K;
-    if (!(found < result.K_lower_proved)) return;
-    result.K = result.K_lower_proved;
+    if (!(found < least)) return;
+    result.K = least;
     result.k = k_of(result.K);
     if (!(found < (1 - kErrorOfEstimate) * result.K)) return;
     if (result.termination == Termination::converged) result.termination = Termination::below_bound;
+    const std::string needed = least > result.K_lower_proved ? ", but quadrilaterals of the outline force about "
+                                                             : ", but no map with these conditions has less than ";
     result.warnings.push_back(
-        {WarningKind::below_bound, "the iteration ended with K = " + std::to_string(found) +
-                                       ", but no map with these conditions has less than " + std::to_string(result.K) +
+        {WarningKind::below_bound, "the iteration ended with K = " + std::to_string(found) + needed +
+                                       std::to_string(result.K) +
                                        ": the differentials at hand do not show the extremal map; a finer mesh would"});
 }
 
