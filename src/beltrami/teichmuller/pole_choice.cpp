@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <beltrami/certificate/chart_quadrilateral.h>
 #include <beltrami/teichmuller/coarse_start.h>
 #include <beltrami/teichmuller/elongation.h>
 
@@ -18,6 +19,8 @@ constexpr double kClearCorner = 3, kSharpImage = 0.35;
 /// face of 34 144 triangles .015, where the surface's metric is more exact; scans whose maps it keeps from settling, or
 /// whose bracket the plane narrows, .04 to .3.
 constexpr double kNoise = 0.03;
+/// Values that force so much in a quadrilateral crowd in the chart (camel_b: 5; other scans 1.1 to 1.8).
+constexpr double kCrowded = 3;
 /// Directions of held vertices that turn by less (radians) are kept.
 constexpr double kTurned = 0.02;
 
@@ -45,11 +48,15 @@ std::vector<BoundaryCorner> PoleChoice::clear_corners() const {
 }
 
 /// Whether the plane of the problem's chart is to be the metric of the iteration: not where the image has corners, at
-/// which φ needs its poles from the start.
+/// which φ needs its poles from the start, nor where the values crowd, so that polynomials show little of φ.
 bool PoleChoice::wants_chart_metric() const {
     if (image_corners() > 0 || !problem_.chart_metric_possible()) return false;
     if (options_.slack > 0) return true;
-    return options_.chart_metric ? *options_.chart_metric : problem_.chart_noise(options_.cluster_count) > kNoise;
+    if (options_.chart_metric) return *options_.chart_metric;
+    const Surface& source = problem_.source();
+    const Eigen::VectorXcd images = problem_.harmonic()(source.topology.boundary_loops[0]);
+    return chart_quadrilateral_estimate(source, problem_.chart(), {images.begin(), images.end()}) < kCrowded &&
+           problem_.chart_noise(options_.cluster_count) > kNoise;
 }
 
 HamiltonState PoleChoice::choose(ProblemChart charts, bool plain) {
