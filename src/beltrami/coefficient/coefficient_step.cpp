@@ -247,8 +247,7 @@ CoefficientStep::Result CoefficientStep::solve(const Eigen::VectorXcd& mu, const
     options.step = step;
     if (start.size() > 0) options.reach = moved_;
     const Weights weights = weights_of(mu);
-    return on_cells_ ? solve_on_cells(weights, start, std::move(options))
-                     : solve_on_samples(weights, start, std::move(options));
+    return on_cells_ ? solve_on_cells(weights, start, options) : solve_on_samples(weights, start, std::move(options));
 }
 
 Eigen::VectorXcd CoefficientStep::begin(const Eigen::VectorXcd& start) {
@@ -267,7 +266,7 @@ Eigen::VectorXcd CoefficientStep::begin(const Eigen::VectorXcd& start) {
 }
 
 CoefficientStep::Result CoefficientStep::solve_on_cells(const Weights& weights, const Eigen::VectorXcd& start,
-                                                        DualOptions options) {
+                                                        const DualOptions& options) {
     const Eigen::VectorXcd square = chart_.derivatives.cwiseProduct(chart_.derivatives);
     problem_.weights = cells_->node_weights(weights.norm.cwiseProduct(square.cwiseAbs()));
     problem_.pairing = sampled_.space().from_generators(

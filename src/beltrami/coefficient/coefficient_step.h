@@ -72,7 +72,7 @@ class CoefficientStep {
     Weights weights_of(const Eigen::VectorXcd& mu) const;
     /// φ and k, of which the pairing, ∫ a|φ| and ∫|φ| are known.
     static void set_dilatation(double pairing, double norm, double plain, Result& result);
-    Result solve_on_cells(const Weights& weights, const Eigen::VectorXcd& start, DualOptions options);
+    Result solve_on_cells(const Weights& weights, const Eigen::VectorXcd& start, const DualOptions& options);
     Result solve_on_samples(const Weights& weights, const Eigen::VectorXcd& start, DualOptions options);
     /// A start without one, and δ for the rest.
     Eigen::VectorXcd begin(const Eigen::VectorXcd& start);
