@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include <beltrami/certificate/modulus.h>
 #include <beltrami/starts/target_model.h>
 #include <beltrami/targets/correspondence.h>
 #include <beltrami/teichmuller/extremal_map.h>
@@ -18,5 +19,10 @@ namespace beltrami {
 /// @throw Error not_solved
 std::optional<ExtremalMap> crowded_annulus_onto_ring(const Surface& source, const TargetModel& target,
                                                      const Correspondence& wanted);
+
+/// The same of any annulus, crowded or not, onto a round ring, whose circles need not be concentric.
+/// @param of_target its modulus where it stands for another surface; null: that of the circles
+std::optional<ExtremalMap> annulus_onto_ring(const Surface& source, const TargetModel& target,
+                                             const Correspondence& wanted, const ModulusBracket* of_target = nullptr);
 
 }  // namespace beltrami

@@ -82,9 +82,21 @@ int OntoProblem::factorizations() const {
 }
 
 std::optional<ExtremalMap> OntoProblem::direct() const {
-    if (target_surface_) return {};
+    if (options_.start) return {};
+    if (target_surface_) return instead();
     if (auto ring = crowded_annulus_onto_ring(source(), *target_, wanted_)) return ring;
     return quadrilateral_onto_rectangle(source(), *target_, wanted_);
+}
+
+std::optional<ExtremalMap> OntoProblem::instead() const {
+    if (source().topology.boundary_loops.size() != 2) return {};
+    if (!target_surface_) return annulus_onto_ring(source(), *target_, wanted_);
+    const ModulusBracket modulus = ring_modulus(*target_surface_);
+    std::optional<ExtremalMap> result = annulus_onto_ring(source(), *target_, wanted_, &modulus);
+    if (!result || (all_triangles(source().mesh) && all_triangles(target_surface_->mesh))) return result;
+    for (Bound& bound : result->bounds) bound.rigorous = false;  // quads in space have no one surface
+    result->K_lower_proved = 1;
+    return result;
 }
 
 SlidingStart OntoProblem::start() const {

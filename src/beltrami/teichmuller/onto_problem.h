@@ -17,6 +17,7 @@ class OntoProblem final : public SlidingProblem {
 
     int factorizations() const override;
     std::optional<ExtremalMap> direct() const override;
+    std::optional<ExtremalMap> instead() const override;
     SlidingStart start() const override;
     bool has_given_start() const override { return options_.start.has_value(); }
     void forget_given_start() override { options_.start.reset(); }

@@ -30,6 +30,8 @@ class SlidingProblem {
 
     /// The extremal map where it is known without an iteration.
     virtual std::optional<ExtremalMap> direct() const { return {}; }
+    /// Another map that is as good as extremal, where the iteration has no start.
+    virtual std::optional<ExtremalMap> instead() const { return {}; }
     /// Where to begin. What conformal maps of the source to itself would move is held.
     /// @throw Error bad_boundary, not_solved
     virtual SlidingStart start() const = 0;

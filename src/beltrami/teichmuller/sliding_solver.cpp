@@ -86,14 +86,42 @@ ExtremalMap SlidingSolver::solve() {
         result.factorizations += problem_->factorizations();
         result.warnings = problem_->warnings();
     } else {
-        result = problem_->has_given_start() ? settled_from_given_start() : settled();
-        problem_->prove(result);
+        result = settled_or_instead();
     }
     record_shortcomings(result);
     warn_of_crushed_faces(result);
     result.split = problem_->split();
     problem_->record(result);
     return result;
+}
+
+/// By the iteration, or where that has no start or ends folded by what the problem has instead.
+ExtremalMap SlidingSolver::settled_or_instead() {
+    std::optional<ExtremalMap> iterated;
+    std::string end;
+    try {
+        iterated = problem_->has_given_start() ? settled_from_given_start() : settled();
+        problem_->prove(*iterated);
+        const std::size_t flips = iterated->distortion.flipped.size();
+        if (flips == 0) return std::move(*iterated);
+        end = "ended with " + std::to_string(flips) + " flipped faces";
+    } catch (const Error& error) {
+        if (error.cause() != Cause::not_solved) throw;
+        std::optional<ExtremalMap> instead = problem_->instead();
+        if (!instead) throw;
+        return described(std::move(*instead), std::string("failed (") + error.what() + ")");
+    }
+    if (std::optional<ExtremalMap> instead = problem_->instead()) return described(std::move(*instead), end);
+    return std::move(*iterated);
+}
+
+/// A map that takes the place of an iteration that has come to nothing.
+ExtremalMap SlidingSolver::described(ExtremalMap instead, const std::string& end) const {
+    instead.factorizations += problem_->factorizations();
+    instead.warnings = problem_->warnings();
+    instead.warnings.push_back(
+        {WarningKind::fallback, "the iteration " + end + "; the map is affine in the potentials of the ring"});
+    return instead;
 }
 
 /// Start, iteration, finish.

@@ -20,6 +20,8 @@ class SlidingSolver final : public ProblemSolver {
   private:
     const Surface& source() const { return problem_->source(); }
     bool begun() const { return chart_ != nullptr; }
+    ExtremalMap settled_or_instead();
+    ExtremalMap described(ExtremalMap instead, const std::string& end) const;
     ExtremalMap settled();
     ExtremalMap settled_from_given_start();
     void begin_without_start();

@@ -33,6 +33,31 @@ TEST(OntoAnnulus, APlainRingIsNotCrowded) {
     EXPECT_FALSE(crowded_annulus_onto_ring(source, *target_model(round_ring(0.3), 0.1), {}));
 }
 
+TEST(OntoAnnulus, CirclesNeedNotBeConcentric) {
+    const Surface source(annulus(0.2, 1, 64));
+    const Complex centre(0.5, -0.25), hole(0.9, 0.35);
+    const TargetDomain target = target_domain(TargetCurve::circle(centre, 2), {TargetCurve::circle(hole, 0.8)});
+    const auto direct = annulus_onto_ring(source, *target_model(target, 0.1), {});
+    ASSERT_TRUE(direct);
+    EXPECT_TRUE(direct->distortion.flipped.empty());
+    for (int v = 0; v < source.mesh.vertex_count(); ++v) {
+        if (!source.topology.on_boundary[v]) continue;
+        const double radius = std::hypot(source.mesh.positions(v, 0), source.mesh.positions(v, 1));
+        EXPECT_NEAR(std::abs(direct->map[v] - (radius > 0.5 ? centre : hole)), radius > 0.5 ? 2 : 0.8, 1e-9);
+    }
+    for (const LoopOnto& loop : direct->loops) {
+        EXPECT_NEAR(loop.area_ratio, 1, 0.02);
+        EXPECT_TRUE(std::is_sorted(loop.parameters.begin(), loop.parameters.end()));
+    }
+    // The iteration ends there too.
+    const ExtremalMap whole = extremal_map(source, target);
+    EXPECT_GT(whole.iterations, 0);
+    EXPECT_NEAR(whole.K, direct->K, 5e-3 * direct->K);
+    EXPECT_LE(direct->K_lower, whole.K);
+    EXPECT_LE(whole.K, direct->K_upper);
+    EXPECT_NEAR(direct->distortion.mean, direct->k, 0.02);
+}
+
 TEST(LargeOntoAnnulus, AFingerIsMappedWithoutFoldsInARigorousBracket) {
     const Surface source(ring_with_finger());
     ASSERT_EQ(source.topology.boundary_loops.size(), 2u);
