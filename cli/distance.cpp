@@ -5,6 +5,7 @@
 #include <beltrami/base/error.h>
 #include <beltrami/io/atomic_file.h>
 #include <beltrami/report/dendrogram.h>
+#include <beltrami/teichmuller/torus_map.h>
 
 #include "command.h"
 #include "mesh_input.h"
@@ -18,17 +19,20 @@ class DistanceCommand final : public Command {
     explicit DistanceCommand(CLI::App& parent) {
         CLI::App* app = parent.add_subcommand(
             "distance", "Teichmueller's distance ½ log K* between shapes of one topology, with its bracket");
-        app->add_option("MESH", meshes_, "two or more: OBJ, PLY, OFF or STL, of genus 0 with as many boundary loops")
+        app->add_option("MESH", meshes_,
+                        "two or more: OBJ, PLY, OFF or STL, of genus 0 with as many boundary loops, or tori")
             ->required()
             ->expected(2, 1 << 20);
-        app->add_option("--outer", outer_, "the boundary loop of every shape that goes to the others' outer one")
-            ->check(CLI::NonNegativeNumber)
-            ->capture_default_str()
-            ->type_name("h");
-        app->add_option("--match", match_,
-                        "holes go to those nearest after the best Moebius map of the disk, or of like size")
-            ->check(CLI::IsMember({"position", "size"}))
-            ->capture_default_str();
+        outer_option_ =
+            app->add_option("--outer", outer_, "the boundary loop of every shape that goes to the others' outer one")
+                ->check(CLI::NonNegativeNumber)
+                ->capture_default_str()
+                ->type_name("h");
+        match_option_ =
+            app->add_option("--match", match_,
+                            "holes go to those nearest after the best Moebius map of the disk, or of like size")
+                ->check(CLI::IsMember({"position", "size"}))
+                ->capture_default_str();
         app->add_option("--picture", picture_, "the matrix and the tree of its clusters, as SVG")
             ->type_name("FILE.svg");
         options_.add_to(*app);
@@ -56,6 +60,38 @@ class DistanceCommand final : public Command {
             for (const Warning& finding : findings) record.warnings.push_back(prefixed(mesh, finding));
         }
         record.source = source_record(surfaces[0]);
+        record.distances = is_torus(surfaces[0]) ? between_tori(surfaces) : between_domains(surfaces);
+        if (!picture_.empty())
+            write_atomically(picture_,
+                             render_dendrogram(names(), record.distances->matrix.distance, record.distances->merges));
+        if (common_.may_print()) print(*record.distances);
+        finish(record, common_, {}, {common_.json, picture_});
+        return 0;
+    }
+
+    std::string hint(const Error& error) const override {
+        if (error.cause() != Cause::bad_mesh) return cli::hint(error);
+        for (const std::string& mesh : meshes_)
+            if (const std::string hint = options_.hint(mesh); !hint.empty()) return mesh + ": " + hint;
+        return {};
+    }
+
+  private:
+    static bool is_torus(const Surface& surface) {
+        return surface.topology.genus == 1 && surface.topology.components == 1 &&
+               surface.topology.boundary_loops.empty();
+    }
+
+    DistancesRecord between_tori(const std::vector<Surface>& surfaces) const {
+        for (const CLI::Option* option : {outer_option_, match_option_})
+            if (option->count() > 0)
+                throw Error(Cause::bad_option, option->get_name() + " is for boundary loops, and tori have none",
+                            "leave it out");
+        TorusDistances found = torus_distances(surfaces, meshes_);
+        return {meshes_, found.matrix, cluster_by_distance(found.matrix.distance), found.tau, found.markings};
+    }
+
+    DistancesRecord between_domains(const std::vector<Surface>& surfaces) {
         Correspondence wanted;
         wanted.outer_loop = outer_;
         wanted.match_by = match_ == "size" ? MatchBy::size : MatchBy::position;
@@ -69,26 +105,13 @@ class DistanceCommand final : public Command {
             matrix = distance_matrix(surfaces, wanted, {}, show, meshes_);
         }
         for (const auto& [i, j] : matrix.unsettled)
-            record.warnings.push_back({WarningKind::distance,
-                                       meshes_[i] + " and " + meshes_[j] +
-                                           ": a map has not converged or has folds, their distance is an estimate",
-                                       {Things::shapes, {i, j}}});
-        record.distances = {meshes_, matrix, cluster_by_distance(matrix.distance)};
-        if (!picture_.empty())
-            write_atomically(picture_, render_dendrogram(names(), matrix.distance, record.distances->merges));
-        if (common_.may_print()) print(matrix);
-        finish(record, common_, {}, {common_.json, picture_});
-        return 0;
+            record_.warnings.push_back({WarningKind::distance,
+                                        meshes_[i] + " and " + meshes_[j] +
+                                            ": a map has not converged or has folds, their distance is an estimate",
+                                        {Things::shapes, {i, j}}});
+        return {meshes_, matrix, cluster_by_distance(matrix.distance)};
     }
 
-    std::string hint(const Error& error) const override {
-        if (error.cause() != Cause::bad_mesh) return cli::hint(error);
-        for (const std::string& mesh : meshes_)
-            if (const std::string hint = options_.hint(mesh); !hint.empty()) return mesh + ": " + hint;
-        return {};
-    }
-
-  private:
     /// File names without their folders and extensions.
     std::vector<std::string> names() const {
         std::vector<std::string> result;
@@ -100,17 +123,32 @@ class DistanceCommand final : public Command {
         return result;
     }
 
-    void print(const DistanceMatrix& matrix) const {
+    void print(const DistancesRecord& found) const {
+        const DistanceMatrix& matrix = found.matrix;
+        for (std::size_t i = 0; i < found.tau.size(); ++i)
+            fmt::print("{}: tau = {:.8f}{:+.8f}i\n", meshes_[i], found.tau[i].real() + 0.0, found.tau[i].imag());
+        const auto where = [](const TorusDistances::Pair& pair, int column) {
+            return fmt::format("{:+d}a{:+d}b", pair.marking(0, column), pair.marking(1, column));
+        };
+        std::size_t next = 0;  // of the markings, which come in this order
         for (Eigen::Index i = 0; i < matrix.distance.rows(); ++i)
-            for (Eigen::Index j = i + 1; j < matrix.distance.cols(); ++j)
-                fmt::print("{} {}: {:.6f} (between {:.6f} and {:.6f}), K = {:.6f}\n", meshes_[i], meshes_[j],
+            for (Eigen::Index j = i + 1; j < matrix.distance.cols(); ++j) {
+                std::string marking;
+                if (!found.markings.empty()) {
+                    const TorusDistances::Pair& pair = found.markings[next++];
+                    marking =
+                        fmt::format("; the nearest marking sends a to {} and b to {}", where(pair, 0), where(pair, 1));
+                }
+                fmt::print("{} {}: {:.6f} (between {:.6f} and {:.6f}), K = {:.6f}{}\n", meshes_[i], meshes_[j],
                            matrix.distance(i, j), matrix.lower(i, j), matrix.upper(i, j),
-                           std::exp(2 * matrix.distance(i, j)));
+                           std::exp(2 * matrix.distance(i, j)), marking);
+            }
     }
 
     std::vector<std::string> meshes_;
     std::string match_ = "position", picture_;
     int outer_ = 0;
+    CLI::Option *outer_option_ = nullptr, *match_option_ = nullptr;
     MeshInputOptions options_;
 };
 

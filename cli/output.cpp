@@ -88,16 +88,29 @@ void OutputOptions::check_seams() const {
                     "write an OBJ or a PLY, or positions with --as-positions");
 }
 
+void OutputOptions::check_layout() const {
+    if (as_positions_)
+        throw Error(Cause::bad_option,
+                    "--as-positions: a surface with a handle is cut open, and a vertex on the cut has "
+                    "several places in the plane",
+                    "leave it out: OUT then has them as vt");
+    check_seams();
+}
+
 void OutputOptions::write_sphere(const Mesh& source, const Positions& points, const Distortion& distortion,
                                  const FileAttributes& attributes, double unit) const {
     if (as_positions_) {
         write_mesh(path_, {mesh_at(points, source.faces), {}, columns_of(distortion), {}, without_normals(attributes)});
         return;
     }
-    TextureCoordinates charts = stereographic_charts(source.faces, points);
-    charts.points = fit_.fitted(std::move(charts.points));
+    write_layout(source, stereographic_charts(source.faces, points), distortion, attributes, unit);
+}
+
+void OutputOptions::write_layout(const Mesh& source, TextureCoordinates layout, const Distortion& distortion,
+                                 const FileAttributes& attributes, double unit) const {
+    layout.points = fit_.fitted(layout.points);
     const Mesh whole = unit == 1 ? source : mesh_at(unit * source.positions, source.faces);
-    write_mesh(path_, {whole, {}, columns_of(distortion), {}, attributes, std::move(charts)});
+    write_mesh(path_, {whole, {}, columns_of(distortion), {}, attributes, std::move(layout)});
 }
 
 void OutputOptions::write(const Mesh& source, const Positions& images, const Eigen::VectorXcd& map,

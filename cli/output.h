@@ -40,8 +40,13 @@ class OutputOptions {
     /// @param points #V×3
     void write_sphere(const Mesh& source, const Positions& points, const Distortion& distortion,
                       const FileAttributes& attributes, double unit) const;
+    /// The same for a map with seams, as vt per face corner.
+    void write_layout(const Mesh& source, TextureCoordinates layout, const Distortion& distortion,
+                      const FileAttributes& attributes, double unit) const;
     /// @throw Error bad_option if OUT's format cannot hold a map with seams and is to
     void check_seams() const;
+    /// @throw Error bad_option if vertices are to stand at their images and have several
+    void check_layout() const;
 
   private:
     std::string path_;

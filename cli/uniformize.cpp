@@ -2,7 +2,10 @@
 
 #include <beltrami/base/error.h>
 #include <beltrami/charts/uniformization.h>
+#include <beltrami/forms/flat_torus.h>
+#include <beltrami/forms/period_matrix.h>
 #include <beltrami/mesh/edge_table.h>
+#include <beltrami/mesh/texture_map.h>
 
 #include "command.h"
 #include "mesh_input.h"
@@ -30,9 +33,11 @@ class Uniformize final : public Command {
     explicit Uniformize(CLI::App& parent) {
         CLI::App* app = parent.add_subcommand(
             "uniformize",
-            "conformal map to the canonical domain: a closed surface to the sphere, a disk to the round disk, a "
-            "surface with holes to the disk less round holes, with its moduli");
-        app->add_option("SOURCE", source_, "OBJ, PLY, OFF or STL; one component of genus 0")->required();
+            "conformal map to the canonical domain: a closed surface to the sphere or, of genus 1, the flat torus, a "
+            "disk "
+            "to the round disk, a surface with holes to the disk less round holes, with its moduli; of closed surfaces "
+            "with more handles the period matrix alone");
+        app->add_option("SOURCE", source_, "OBJ, PLY, OFF or STL; one component of genus 0, or closed")->required();
         output_.add_to(*app);
         app->add_option("--outer", outer_,
                         "the boundary loop, numbered as `beltrami info` prints it, that goes to the unit circle; "
@@ -71,10 +76,14 @@ class Uniformize final : public Command {
         add_findings(source.findings, record.warnings);
         record.source = source_record(source, input.unit);
         check(source);
-        if (closed)
-            to_sphere(source, input, start);
-        else
+        if (!closed)
             to_circles(source, input, start);
+        else if (source.topology.genus == 0)
+            to_sphere(source, input, start);
+        else if (source.topology.genus == 1)
+            to_torus(source, input, start);
+        else
+            only_periods(source, input, start);
         return 0;
     }
 
@@ -119,6 +128,51 @@ class Uniformize final : public Command {
                  found.method == SphereMethod::tutte ? "tutte" : "conformal");
     }
 
+    void to_torus(const Surface& source, const MeshInput& input, double start) {
+        output_.check_layout();
+        const FlatTorus found = flat_torus(source);
+        record_.solve = direct_solve(found.factorizations, start);
+        record_.periods =
+            periods_record(found.homology, found.generators, Eigen::MatrixXcd::Constant(1, 1, found.tau), input.unit);
+        record_.torus = torus_record(found);
+        const Distortion& d = found.distortion;
+        if (!d.flipped.empty())
+            record_.warnings.push_back({WarningKind::flipped_faces,
+                                        counted(d.flipped.size(), "face comes", "faces come") +
+                                            " out flipped, as edges were flipped on the way; the first is face " +
+                                            std::to_string(d.flipped[0]),
+                                        {Things::faces, d.flipped}});
+        record_.map = map_record(d);
+        output_.write_layout(source.mesh, found.layout, d, input.attributes, input.unit);
+        write_page(common_.report, cut_along_seams(source.mesh, found.layout),
+                   {{"conformal", found.layout.points, d.face_abs_mu}}, {}, record_, source_);
+        finish(record_, common_, "conformal", {output_.path(), common_.json, common_.report});
+    }
+
+    /// What is known of the shape, and that there is no map yet.
+    void only_periods(const Surface& source, const MeshInput& input, double start) {
+        const HarmonicBasis basis = harmonic_basis(source);
+        const PeriodMatrix found = period_matrix(source, basis);
+        record_.solve = direct_solve(basis.factorizations, start);
+        record_.periods = periods_record(basis.homology, found.basis, found.periods, input.unit);
+        finish(record_, common_, {}, {common_.json});
+        throw Error(Cause::bad_mesh,
+                    fmt::format("SOURCE is a closed surface of genus {}, of which the periods are all that is computed "
+                                "yet: {} is not written",
+                                source.topology.genus, output_.path()),
+                    "cut it until a surface of genus 0 is left");
+    }
+
+    /// One linear solve.
+    static SolveRecord direct_solve(int factorizations, double start) {
+        SolveRecord solve;
+        solve.iterations = 1;
+        solve.factorizations = factorizations;
+        solve.termination = to_string(Termination::converged);
+        solve.seconds_total = seconds() - start;
+        return solve;
+    }
+
     void conclude(const Surface& source, const Positions& map, const Distortion& d, const char* method) {
         write_page(common_.report, source.mesh, {{method, map, d.face_abs_mu}}, {}, record_, source_);
         finish(record_, common_, method, {output_.path(), common_.json, common_.report});
@@ -127,13 +181,15 @@ class Uniformize final : public Command {
     void check(const Surface& source) const {
         const Topology& topology = source.topology;
         const auto loops = static_cast<int>(topology.boundary_loops.size());
-        if (topology.components == 1 && topology.genus > 0)
-            throw Error(Cause::bad_mesh,
-                        fmt::format("SOURCE is {} surface of genus {}, which cannot be uniformized yet",
-                                    loops == 0 ? "a closed" : "an open", topology.genus),
-                        "cut it until a surface of genus 0 is left");
-        if (loops > 0 && sphere_.given())
-            throw Error(Cause::bad_option, "--method is for closed surfaces, and SOURCE has a boundary",
+        if (topology.components == 1 && topology.genus > 0 && loops > 0)
+            throw Error(
+                Cause::bad_mesh,
+                fmt::format("SOURCE is an open surface of genus {}, which cannot be uniformized yet", topology.genus),
+                "cut it until a surface of genus 0 is left");
+        if (sphere_.given() && (loops > 0 || topology.genus > 0))
+            throw Error(Cause::bad_option,
+                        fmt::format("--method is for closed surfaces of genus 0, and SOURCE has {}",
+                                    loops > 0 ? "a boundary" : "a handle"),
                         "leave it out");
         const auto require = [&](int loop, const char* option) {
             if (loop >= loops)

@@ -75,10 +75,9 @@ class Uniformize(Command):
                            math.sin(2 * math.pi * j / m)) for i in range(n) for j in range(m)])
         faces = [t for i in range(n) for j in range(m)
                  for t in ((at(i, j), at(i + 1, j), at(i + 1, j + 1)), (at(i, j), at(i + 1, j + 1), at(i, j + 1)))]
-        for mesh, kind in ((faces, "a closed surface of genus 1"), (faces[1:], "an open surface of genus 1")):
-            write_obj(self.path("torus.obj"), torus, np.array(mesh))
-            text = self.run_command("uniformize", self.path("torus.obj"), "-o", self.path("out.obj"), code=4).stderr
-            self.assertIn(kind, text)
+        write_obj(self.path("torus.obj"), torus, np.array(faces[1:]))
+        text = self.run_command("uniformize", self.path("torus.obj"), "-o", self.path("out.obj"), code=4).stderr
+        self.assertIn("an open surface of genus 1", text)
         self.assert_nothing_left("torus.obj")
 
     def test_loops_that_are_not_there(self):

@@ -1,10 +1,7 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <vector>
-
-#include <beltrami/generate/grids.h>
 
 namespace beltrami::test {
 
@@ -16,23 +13,11 @@ inline std::array<std::vector<int>, 2> parallel_and_meridian(int nu, int nv) {
     return paths;
 }
 
-/// u − v: around and back once along the grid; crosses the parallel and the meridian once.
-inline std::vector<int> twisted(int nu, int nv, int turns) {
-    std::vector<int> path;
-    int j = 0;
-    for (int i = 0; i < nu; ++i) {
-        path.push_back(i * nv + j);
-        // The turns are shared out; each is a step along the meridian.
-        const int wanted = turns * nv * (i + 1) / nu;
-        const int before = turns * nv * i / nu;
-        const int next = (i + 1) % nu;
-        const int sign = turns > 0 ? 1 : -1;
-        for (int s = before; s != wanted; s += sign) {
-            if (s == before) path.push_back(next * nv + j);
-            j = (j + sign + nv) % nv;
-            if (s + sign != wanted) path.push_back(next * nv + j);
-        }
-    }
+/// Along the parallel, and then along the meridian or back along it.
+inline std::vector<int> parallel_then_meridian(int nu, int nv, bool back) {
+    auto [path, meridian] = parallel_and_meridian(nu, nv);
+    path.push_back(0);
+    for (int j = 1; j < nv; ++j) path.push_back(meridian[back ? nv - j : j]);
     return path;
 }
 

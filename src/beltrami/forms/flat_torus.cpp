@@ -198,7 +198,7 @@ TorusMarking marking_of_paths(const Surface& from, const FlatTorus& flat_from,
         throw Error(Cause::bad_option, "two paths do not determine a marking: they cross 0 times, counted with signs",
                     "take paths along and around the tube");
     const TorusMarking product = there * inverse_of(here);
-    const TorusMarking marking = product / crossings;
+    TorusMarking marking = product / crossings;
     if (marking * crossings != product || marking.determinant() != 1)
         throw Error(Cause::bad_option,
                     "no map that keeps the orientation sends the paths to the others: they cross " +

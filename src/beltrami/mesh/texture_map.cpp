@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <map>
+#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -55,6 +56,19 @@ std::vector<std::vector<int>> texture_charts(const Mesh& mesh) {
         result[chart].push_back(f);
     }
     return result;
+}
+
+Mesh cut_along_seams(const Mesh& mesh, const TextureCoordinates& texture) {
+    Mesh cut;
+    cut.positions = Positions::Zero(texture.points.rows(), mesh.positions.cols());
+    cut.faces.reserve(mesh.face_count(), mesh.faces.corner_count());
+    for (int f = 0; f < mesh.face_count(); ++f) {
+        const int first = mesh.faces.first_corner(f), n = mesh.faces.degree(f);
+        cut.faces.add(std::span<const int>(texture.corners).subspan(static_cast<std::size_t>(first), n));
+        for (int c = first; c < first + n; ++c)
+            cut.positions.row(texture.corners[c]) = mesh.positions.row(mesh.faces.vertices()[c]);
+    }
+    return cut;
 }
 
 }  // namespace beltrami

@@ -22,4 +22,9 @@ Eigen::VectorXcd texture_map(const Mesh& mesh);
 /// @pre every corner has texture coordinates
 std::vector<std::vector<int>> texture_charts(const Mesh& mesh);
 
+/// The mesh cut open along the seams of texture coordinates: a vertex for every point of the texture, at the place of
+/// the vertices that name it, and the faces between these in their order.
+/// @pre every corner has a point, and a point belongs to one vertex
+Mesh cut_along_seams(const Mesh& mesh, const TextureCoordinates& texture);
+
 }  // namespace beltrami

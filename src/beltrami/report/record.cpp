@@ -112,6 +112,19 @@ SphereRecord sphere_record(const SphereMap& result) {
         result.unresolved_area};
 }
 
+PeriodsRecord periods_record(const HomologyBasis& loops, const Eigen::MatrixXi& basis, const Eigen::MatrixXcd& periods,
+                             double unit) {
+    PeriodsRecord record{{}, basis, periods};
+    for (std::size_t l = 0; l < loops.loops.size(); ++l)
+        record.loops.push_back({unit * loops.lengths[l], loops.loops[l]});
+    return record;
+}
+
+TorusRecord torus_record(const FlatTorus& torus) {
+    const double unit = 1 / std::sqrt(torus.tau.imag());
+    return {torus.tau, torus.tau_error, {unit, unit * std::abs(torus.tau)}, torus.flips};
+}
+
 SolveRecord solve_record(const LeastMaximumMap& result, double seconds_total) {
     // Where rounding allows no better map, it has converged.
     const bool settled = result.fold_free && result.status != FoldFreeStatus::iteration_limit;

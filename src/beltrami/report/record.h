@@ -8,12 +8,15 @@
 #include <beltrami/base/warning.h>
 #include <beltrami/charts/uniformization.h>
 #include <beltrami/flow/beltrami_flow.h>
+#include <beltrami/forms/flat_torus.h>
+#include <beltrami/forms/period_matrix.h>
 #include <beltrami/report/grid_record.h>
 #include <beltrami/teichmuller/certify.h>
 #include <beltrami/teichmuller/distance.h>
 #include <beltrami/teichmuller/extremal_between.h>
 #include <beltrami/teichmuller/extremal_map.h>
 #include <beltrami/teichmuller/least_maximum.h>
+#include <beltrami/teichmuller/torus_map.h>
 #include <beltrami/uniformize/sphere_map.h>
 
 namespace beltrami BELTRAMI_PUBLIC {
@@ -129,6 +132,25 @@ struct SphereRecord {
     double unresolved_area = 0;
 };
 
+/// The loops of a closed surface with handles, and its periods.
+struct PeriodsRecord {
+    struct Loop {
+        double length;
+        std::vector<int> vertices;
+    };
+    std::vector<Loop> loops;
+    Eigen::MatrixXi basis;     ///< #loops×2g: a_1 … a_g, b_1 … b_g in terms of the loops
+    Eigen::MatrixXcd periods;  ///< g×g
+};
+
+/// A closed surface of genus 1 on the plane modulo a lattice.
+struct TorusRecord {
+    Complex tau;
+    double tau_error = 0;
+    std::array<double, 2> lengths{};  ///< of a and b on the flat torus of area 1
+    int flips = 0;                    ///< of edges to the intrinsic Delaunay triangulation
+};
+
 /// A map with a prescribed coefficient.
 struct FlowRecord {
     std::string coefficient;            ///< its file
@@ -143,6 +165,8 @@ struct DistancesRecord {
     std::vector<std::string> shapes;
     DistanceMatrix matrix;
     std::vector<Merge> merges;
+    std::vector<Complex> tau = {};                    ///< of tori, reduced
+    std::vector<TorusDistances::Pair> markings = {};  ///< of every two tori: the one in which they are nearest
 };
 
 /// One line of a comparison.
@@ -175,6 +199,8 @@ struct Record {
     std::optional<CorrespondenceRecord> correspondence;
     std::optional<UniformizationRecord> uniformization;
     std::optional<SphereRecord> sphere;
+    std::optional<PeriodsRecord> periods;
+    std::optional<TorusRecord> torus;
     std::optional<FlowRecord> flow;
     std::optional<GridRecord> grid;
     std::optional<DistancesRecord> distances;
@@ -199,6 +225,10 @@ CorrespondenceRecord correspondence_record(const ExtremalMapBetween& result, con
                                            std::size_t pairs);
 UniformizationRecord uniformization_record(const Uniformization& result);
 SphereRecord sphere_record(const SphereMap& result);
+/// @param unit of the positions
+PeriodsRecord periods_record(const HomologyBasis& loops, const Eigen::MatrixXi& basis, const Eigen::MatrixXcd& periods,
+                             double unit = 1);
+TorusRecord torus_record(const FlatTorus& torus);
 CornersRecord corners_record(const ExtremalMap& result);
 /// @param source_vertices number of vertices before the split
 SplitRecord split_record(const SplitProblem& split, int source_vertices);

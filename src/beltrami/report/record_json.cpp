@@ -123,6 +123,38 @@ Json to_object(const SphereRecord& sphere) {
     return object;
 }
 
+Json pair_of(Complex value) {
+    return {number(value.real()), number(value.imag())};
+}
+
+Json to_rows(const Eigen::MatrixXi& matrix) {
+    Json rows = Json::array();
+    for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+        const Eigen::RowVectorXi row = matrix.row(i);
+        rows.push_back(std::vector<int>(row.begin(), row.end()));
+    }
+    return rows;
+}
+
+Json to_object(const PeriodsRecord& periods) {
+    Json loops = Json::array(), matrix = Json::array();
+    for (const PeriodsRecord::Loop& loop : periods.loops)
+        loops.push_back({{"length", number(loop.length)}, {"vertices", loop.vertices}});
+    for (Eigen::Index i = 0; i < periods.periods.rows(); ++i) {
+        Json row = Json::array();
+        for (Eigen::Index j = 0; j < periods.periods.cols(); ++j) row.push_back(pair_of(periods.periods(i, j)));
+        matrix.push_back(std::move(row));
+    }
+    return {{"loops", std::move(loops)}, {"basis", to_rows(periods.basis)}, {"matrix", std::move(matrix)}};
+}
+
+Json to_object(const TorusRecord& torus) {
+    return {{"tau", pair_of(torus.tau)},
+            {"tau_error", number(torus.tau_error)},
+            {"lengths", {number(torus.lengths[0]), number(torus.lengths[1])}},
+            {"flips", torus.flips}};
+}
+
 Json to_object(const FlowRecord& flow) {
     Json object = {{"coefficient", flow.coefficient}};
     if (flow.target) object["target"] = *flow.target;
@@ -238,11 +270,19 @@ Json to_object(const DistancesRecord& distances) {
     Json merges = Json::array();
     for (const Merge& merge : distances.merges)
         merges.push_back({{"clusters", {merge.a, merge.b}}, {"height", number(merge.height)}, {"size", merge.size}});
-    return {{"shapes", distances.shapes},
-            {"distance", to_rows(distances.matrix.distance)},
-            {"lower", to_rows(distances.matrix.lower)},
-            {"upper", to_rows(distances.matrix.upper)},
-            {"merges", std::move(merges)}};
+    Json object = {{"shapes", distances.shapes},
+                   {"distance", to_rows(distances.matrix.distance)},
+                   {"lower", to_rows(distances.matrix.lower)},
+                   {"upper", to_rows(distances.matrix.upper)},
+                   {"merges", std::move(merges)}};
+    if (distances.tau.empty()) return object;
+    Json tau = Json::array(), markings = Json::array();
+    for (const Complex value : distances.tau) tau.push_back(pair_of(value));
+    for (const TorusDistances::Pair& pair : distances.markings)
+        markings.push_back({{"shapes", {pair.from, pair.to}}, {"marking", to_rows(Eigen::MatrixXi(pair.marking))}});
+    object["tau"] = std::move(tau);
+    object["markings"] = std::move(markings);
+    return object;
 }
 
 }  // namespace
@@ -288,6 +328,8 @@ std::string to_json(const Record& record) {
     }
     if (record.uniformization) json["uniformization"] = to_object(*record.uniformization);
     if (record.sphere) json["sphere"] = to_object(*record.sphere);
+    if (record.periods) json["periods"] = to_object(*record.periods);
+    if (record.torus) json["torus"] = to_object(*record.torus);
     if (record.flow) json["flow"] = to_object(*record.flow);
     if (record.grid) json["grid"] = to_object(*record.grid);
     if (record.distances) json["distances"] = to_object(*record.distances);

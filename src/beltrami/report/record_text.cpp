@@ -63,6 +63,38 @@ std::string line_of(const SphereRecord& sphere) {
     return text + "\n";
 }
 
+/// Loops, and what a_i and b_i are made of.
+std::string lines_of(const PeriodsRecord& periods) {
+    std::string text;
+    for (std::size_t l = 0; l < periods.loops.size(); ++l)
+        text += fmt::format("loop {}: {} edges, length {:.6g}\n", l, periods.loops[l].vertices.size(),
+                            periods.loops[l].length);
+    const auto genus = static_cast<int>(periods.periods.rows());
+    for (int c = 0; c < 2 * genus; ++c) {
+        text += c < genus ? "a" : "b";
+        if (genus > 1) text += std::to_string(c % genus + 1);
+        text += " =";
+        for (Eigen::Index l = 0; l < periods.basis.rows(); ++l)
+            if (const int times = periods.basis(l, c); times != 0) text += fmt::format(" {:+d}*loop {}", times, l);
+        text += "\n";
+    }
+    text += "period matrix:\n";
+    for (int i = 0; i < genus; ++i) {
+        for (int j = 0; j < genus; ++j)
+            text += fmt::format("  {:.8f}{:+.8f}i", periods.periods(i, j).real() + 0.0, periods.periods(i, j).imag());
+        text += "\n";
+    }
+    return text;
+}
+
+std::string line_of(const TorusRecord& torus) {
+    return fmt::format(
+        "a torus: tau = {:.8f}{:+.8f}i (error of this polyhedron's at most {:.1e}); a and b have the lengths {:.6f} "
+        "and "
+        "{:.6f} on the flat torus of area 1\n",
+        torus.tau.real() + 0.0, torus.tau.imag(), torus.tau_error, torus.lengths[0], torus.lengths[1]);
+}
+
 std::string cell(const std::optional<double>& value, int digits) {
     if (!value) return "";
     if (std::isnan(*value)) return "-";
@@ -131,6 +163,8 @@ std::string to_remarks(const Record& record) {
     }
     if (record.uniformization) text += lines_of(*record.uniformization);
     if (record.sphere) text += line_of(*record.sphere);
+    if (record.periods) text += lines_of(*record.periods);
+    if (record.torus) text += line_of(*record.torus);
     if (record.flow)
         text += fmt::format(
             "coefficient: off by {:.3g} (root mean square), {:.3g} at most; relative residual {:.3g}, of it {:.3g} no "

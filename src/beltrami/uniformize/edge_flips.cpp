@@ -12,8 +12,7 @@ namespace {
 
 /// The quadrilateral of an edge i→j that has become l→k, laid out in units of |lk| with l at 0 and k at 1.
 struct Quadrilateral {
-    Complex i, j;
-    static constexpr double l = 0, k = 1;
+    Complex i, j, k = 1, l = 0;
 
     Quadrilateral(const IntrinsicTriangulation& flipped, int h) {
         const int g = flipped.twin(h);

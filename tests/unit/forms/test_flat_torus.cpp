@@ -9,6 +9,7 @@
 #include <beltrami/generate/grids.h>
 #include <beltrami/generate/sphere.h>
 #include <beltrami/io/read_mesh.h>
+#include <beltrami/mesh/texture_map.h>
 
 #include "support/cause_of.h"
 #include "support/real_mesh.h"
@@ -128,6 +129,10 @@ TEST(FlatTorus, TheLayoutCoversThePlaneOnce) {
             EXPECT_TRUE(alpha > -1e-12 && alpha < 1 + 1e-12 && beta > -1e-12 && beta < 1 + 1e-12);
         }
         EXPECT_NEAR(area, flat.tau.imag(), 1e-10);
+        const Topology cut = topology(cut_along_seams(surface.mesh, flat.layout));
+        EXPECT_EQ(cut.genus, 0);
+        EXPECT_EQ(cut.components, 1);
+        EXPECT_EQ(cut.boundary_loops.size(), 1U);
     }
 }
 

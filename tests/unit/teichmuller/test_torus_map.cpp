@@ -16,7 +16,7 @@ namespace beltrami {
 namespace {
 
 using test::parallel_and_meridian;
-using test::twisted;
+using test::parallel_then_meridian;
 
 struct Pair {
     int source_nu, target_nu;
@@ -49,8 +49,8 @@ TEST(TorusMap, RevolutionToRevolutionInThreeMarkings) {
         const Pair pair(k);
         const auto paths = parallel_and_meridian(pair.target_nu, 4 * k);
         const std::array<TorusMap, 3> maps{pair.map(paths[0], paths[1]),
-                                           pair.map(paths[0], twisted(pair.target_nu, 4 * k, 1)),
-                                           pair.map(twisted(pair.target_nu, 4 * k, -1), paths[1])};
+                                           pair.map(paths[0], parallel_then_meridian(pair.target_nu, 4 * k, false)),
+                                           pair.map(parallel_then_meridian(pair.target_nu, 4 * k, true), paths[1])};
         for (std::size_t m = 0; m < 3; ++m) {
             SCOPED_TRACE(std::to_string(k) + " marking " + std::to_string(m));
             const TorusMap& map = maps[m];
