@@ -77,10 +77,18 @@ const Page& sphere() {
     return page;
 }
 
+const Page& handles() {
+    static const Page page{"gallery-tori.md",
+                           "# Gallery: tori\n\n"
+                           "Extremal maps between closed surfaces of genus 1, made by `./run gallery`.\n\n",
+                           {{"tori", tori}}};
+    return page;
+}
+
 }  // namespace
 
 const std::vector<Page>& pages() {
-    static const std::vector<Page> list{prescribed(), sliding(), sphere()};
+    static const std::vector<Page> list{prescribed(), sliding(), sphere(), handles()};
     return list;
 }
 

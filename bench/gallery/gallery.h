@@ -203,5 +203,6 @@ Figure sliding_distance(Output& output);        ///< distances of shapes and the
 Figure sliding_distance_scans(Output& output);  ///< of scans, if the folder BELTRAMI_MESHES has them
 
 Figure spheres(Output& output);  ///< closed surfaces, scans if the folder BELTRAMI_MESHES has them
+Figure tori(Output& output);     ///< flat metrics of tori and the maps between them
 
 }  // namespace beltrami::gallery
