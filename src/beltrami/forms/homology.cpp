@@ -259,7 +259,6 @@ HomologyBasis homology_basis(const Surface& surface) {
     }
     basis.intersections = intersections_of(surface, tree, part);
     basis.cochains = cochains_of(surface, part);
-    basis.parents = tree.parents;
     return basis;
 }
 

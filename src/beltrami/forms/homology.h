@@ -13,8 +13,8 @@ namespace beltrami BELTRAMI_PUBLIC {
 /// Loops that generate the first homology of a surface, and the closed 1-forms that are dual to them. All integers, and
 /// exact.
 struct HomologyBasis {
-    /// Closed paths of vertices along edges, no vertex twice, the shortest first: 2·genus of a closed surface, one more
-    /// for every boundary loop but one.
+    /// Closed paths of vertices along edges, no vertex twice: 2·genus of a closed surface, one more for every boundary
+    /// loop but one. In the order of their lengths with the way from the common vertex.
     std::vector<std::vector<int>> loops;
     std::vector<double> lengths;  ///< of the loops, in the metric of the surface
     /// Intersection numbers: +1 where loop j crosses loop i from right to left. Antisymmetric; unimodular if the
@@ -23,8 +23,6 @@ struct HomologyBasis {
     /// #E×#loops: values of closed 1-forms along the edges of the topology, from the smaller vertex to the larger;
     /// around loop i form j adds up to 1 if i = j, else to 0.
     Eigen::MatrixXi cochains;
-    /// #V, roots of their own: the tree of edges on which the forms are 0.
-    std::vector<int> parents;
 
     int size() const { return static_cast<int>(loops.size()); }
 };
