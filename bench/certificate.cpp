@@ -2,7 +2,8 @@
 //
 //     bench_certificate [FOLDER] [GAP]
 //
-// FOLDER holds bump8.obj, cert1.obj and cert1.pin, whose rows are left out where it is not given.
+// FOLDER holds bump8.obj, cert1.obj and cert1.pin, whose rows are left out where it is not given. GAP is the part of K
+// that brackets are to have, .01 by default.
 
 #include <chrono>
 #include <fstream>
