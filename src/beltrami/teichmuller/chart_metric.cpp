@@ -99,8 +99,10 @@ double chart_noise(const Surface& source, const Chart& chart, const Eigen::Vecto
     CoefficientStep step(source, chart, {}, phase, cluster_count, CoefficientStep::Sums::over_cells);
     const PolynomialSpace space(degree, degree);
     step.set_space(space);
+    // From a constant φ: from nothing at all the c-step would take its time.
+    const Eigen::VectorXcd constant = Eigen::VectorXcd::Ones(1);
     const auto k_of = [&](const Eigen::VectorXcd& f) {
-        return step.solve(beltrami_coefficient(source.operators, f), {}, kNoiseStep, kNoiseSteps).k;
+        return step.solve(beltrami_coefficient(source.operators, f), constant, kNoiseStep, kNoiseSteps).k;
     };
     const double k = k_of(map);
     return k > 0 ? k_of(chart.vertices) / k : std::numeric_limits<double>::infinity();
