@@ -21,9 +21,9 @@ struct TorusMap : MapResult {
     double K = 1, k = 0;
     /// For the two polyhedra K* of the class lies between these, up to rounding (FlatTorus::tau_error).
     double K_lower = 1, K_upper = 1;
-    Complex mu;  ///< constant, in the flat coordinate of the source; φ is conj(mu) dz², up to a factor > 0
-    TorusMarking marking;           ///< where the generators of the source go, in those of the target
-    Complex target_tau;             ///< of the target in the images of the source's generators
+    Complex mu;            ///< constant, in the flat coordinate of the source; φ is conj(mu) dz², up to a factor > 0
+    TorusMarking marking;  ///< where the generators of the source go, in those of the target
+    Complex target_tau;    ///< of the target in the images of the source's generators
     std::vector<MeshPoint> places;  ///< #V, on the faces of the target
     Positions positions;            ///< #V×3, of these places
     Distortion in_space;  ///< of the source's faces onto the triangles between the positions, oriented by the target
