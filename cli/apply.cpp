@@ -5,19 +5,16 @@
 #include <beltrami/base/error.h>
 #include <beltrami/io/atomic_file.h>
 #include <beltrami/io/number_lists.h>
-#include <beltrami/locate/corner_weights.h>
 #include <beltrami/locate/map_evaluation.h>
 #include <beltrami/operators/distortion.h>
 
 #include "command.h"
+#include "place_file.h"
 #include "words.h"
 
 namespace beltrami::cli {
 
 namespace {
-
-/// Weights of a point's corners sum up to 1, and are not negative, up to this.
-constexpr double kWeightTolerance = 1e-9;
 
 /// Reads places of the source and points of its image, and writes both.
 class PointFile {
@@ -30,35 +27,7 @@ class PointFile {
 
     const std::vector<NumberRow>& rows() const { return rows_; }
 
-    /// The place of "face b0 b1 b2" or, on a quad, "face b0 b1 b2 b3".
-    MeshPoint place(const NumberRow& row) const {
-        const std::vector<double>& n = row.numbers;
-        if (!(n[0] >= 0 && n[0] < mesh_.face_count() && n[0] == std::floor(n[0])))
-            fail(row, fmt::format("{} is not a face from 0 to {}", n[0], mesh_.face_count() - 1));
-        const int face = static_cast<int>(n[0]);
-        const auto corners = mesh_.faces[face];
-        if (n.size() != corners.size() + 1)
-            fail(row, fmt::format("face {} has {} corners, {} are given", face, corners.size(),
-                                  counted(n.size() - 1, "weight", "weights")));
-        double sum = 0;
-        std::size_t left_out = 3;  // of a quad, a corner of weight 0
-        for (std::size_t j = 0; j < corners.size(); ++j) {
-            const double weight = n[j + 1];
-            if (!(weight >= -kWeightTolerance)) fail(row, fmt::format("the weight {} is negative", weight));
-            sum += weight;
-            if (weight == 0) left_out = j;
-        }
-        if (!(std::abs(sum - 1) <= kWeightTolerance)) fail(row, fmt::format("the weights sum up to {}, not 1", sum));
-        if (corners.size() == 4 && n[left_out + 1] != 0)
-            fail(row, "a quad is two triangles, so one of the four weights must be 0");
-        MeshPoint place{face, {}, {}};
-        for (std::size_t j = 0, i = 0; j < corners.size(); ++j) {
-            if (corners.size() == 4 && j == left_out) continue;
-            place.vertices[i] = corners[j];
-            place.barycentric[i++] = n[j + 1];
-        }
-        return place;
-    }
+    MeshPoint place(const NumberRow& row) const { return place_of_row(path_, row, mesh_); }
 
     Eigen::Vector3d point(const NumberRow& row) const {
         require_finite(row);
@@ -72,8 +41,7 @@ class PointFile {
 
     [[noreturn]] void fail(const NumberRow& row, const std::string& what, Cause cause = Cause::unreadable,
                            const std::string& next_step = "repair the line") const {
-        throw Error(cause, fmt::format("{}:{}: {}", path_, row.line, what), next_step,
-                    {Things::lines, {static_cast<int>(row.line) - 1}});
+        fail_at_row(path_, row, what, cause, next_step);
     }
 
   private:
@@ -167,7 +135,7 @@ class Apply final : public Command {
                         error.cause(), "only points of the image have a place on the surface");
         }
         std::string text;
-        for (const MeshPoint& place : found) text += positions_ ? position(mesh, place) : weights(mesh, place);
+        for (const MeshPoint& place : found) text += positions_ ? position(mesh, place) : line_of_place(mesh, place);
         return text;
     }
 
@@ -175,12 +143,6 @@ class Apply final : public Command {
         Eigen::Vector3d p = Eigen::Vector3d::Zero();
         for (int j = 0; j < 3; ++j) p += place.barycentric[j] * mesh.point(place.vertices[j]);
         return fmt::format("{} {} {}\n", p.x(), p.y(), p.z());
-    }
-
-    static std::string weights(const Mesh& mesh, const MeshPoint& place) {
-        std::string text = std::to_string(place.face);
-        for (const double weight : corner_weights(mesh, place)) text += fmt::format(" {}", weight);
-        return text + "\n";
     }
 
     std::string map_, points_, output_;

@@ -51,6 +51,8 @@ std::unique_ptr<Command> make_flow(CLI::App& parent);
 std::unique_ptr<Command> make_distance(CLI::App& parent);
 std::unique_ptr<Command> make_grid(CLI::App& parent);
 std::unique_ptr<Command> make_apply(CLI::App& parent);
+std::unique_ptr<Command> make_register(CLI::App& parent);
+std::unique_ptr<Command> make_transfer(CLI::App& parent);
 
 /// Exit codes by cause; --help lists them.
 int exit_code(Cause cause);

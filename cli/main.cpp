@@ -103,7 +103,8 @@ int main(int argc, char** argv) {
                     "  beltrami flatten face.obj -o flat.obj\n"
                     "  beltrami uniformize holes.obj -o circles.obj   # circle domain and moduli\n"
                     "  beltrami flow face.obj --mu mu.txt --boundary disk -o out.obj   # a given mu\n"
-                    "  beltrami apply out.obj points.txt -o images.txt   # a map, or its inverse, at any points\n\n") +
+                    "  beltrami apply out.obj points.txt -o images.txt   # a map, or its inverse, at any points\n"
+                    "  beltrami register a.obj b.obj --landmarks pairs.txt -o carried.obj   # closed, genus 0\n\n") +
         cli::kExitCodes);
     std::vector<std::pair<CLI::App*, std::unique_ptr<cli::Command>>> commands;
     const auto add = [&](std::unique_ptr<cli::Command> (*make)(CLI::App&)) {
@@ -119,6 +120,8 @@ int main(int argc, char** argv) {
     add(cli::make_grid);
     add(cli::make_distance);
     add(cli::make_apply);
+    add(cli::make_register);
+    add(cli::make_transfer);
 
     const cli::Command* running = nullptr;
     const auto fail = [&](const std::string& sentence, int code) {

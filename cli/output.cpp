@@ -69,11 +69,16 @@ FileAttributes without_normals(FileAttributes attributes) {
 
 }  // namespace
 
+void write_at(const std::string& path, const FaceList& faces, const Positions& positions, const Distortion& distortion,
+              const FileAttributes& attributes) {
+    write_mesh(path, {mesh_at(positions, faces), {}, columns_of(distortion), {}, without_normals(attributes)});
+}
+
 void OutputOptions::write(const Mesh& source, const Eigen::VectorXcd& map, const Distortion& distortion,
                           const FileAttributes& attributes, double unit) const {
     const Positions points = fit_.fitted(positions_of(map));
     if (as_positions_) {
-        write_mesh(path_, {mesh_at(points, source.faces), {}, columns_of(distortion), {}, without_normals(attributes)});
+        write_at(path_, source.faces, points, distortion, attributes);
     } else if (unit == 1) {
         write_mesh(path_, {source, points, columns_of(distortion), {}, attributes});
     } else {
@@ -100,7 +105,7 @@ void OutputOptions::check_layout() const {
 void OutputOptions::write_sphere(const Mesh& source, const Positions& points, const Distortion& distortion,
                                  const FileAttributes& attributes, double unit) const {
     if (as_positions_) {
-        write_mesh(path_, {mesh_at(points, source.faces), {}, columns_of(distortion), {}, without_normals(attributes)});
+        write_at(path_, source.faces, points, distortion, attributes);
         return;
     }
     write_layout(source, stereographic_charts(source.faces, points), distortion, attributes, unit);

@@ -10,6 +10,10 @@ namespace beltrami::cli {
 /// @throw Error bad_option if the extension of -o's file is that of no format
 void require_mesh_format(const std::string& path);
 
+/// Writes faces with their vertices at positions and, in PLY, μ per face.
+void write_at(const std::string& path, const FaceList& faces, const Positions& positions, const Distortion& distortion,
+              const FileAttributes& attributes);
+
 /// --fit: the size of texture coordinates that are written.
 class FitOption {
   public:

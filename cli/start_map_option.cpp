@@ -16,10 +16,9 @@ void StartMapOption::add_to(CLI::App& app) {
         ->type_name("FILE");
 }
 
-std::optional<Eigen::VectorXcd> StartMapOption::load(const Mesh& source, Warnings& warnings) const {
-    if (!given()) return {};
-    const Mesh start = cli::load(path_, warnings);
-    const std::string other = "--start-map " + path_ + " is another mesh than SOURCE: ",
+Mesh load_of_same_faces(const std::string& option, const std::string& path, const Mesh& source, Warnings& warnings) {
+    Mesh start = cli::load(path, warnings);
+    const std::string other = option + " " + path + " is another mesh than SOURCE: ",
                       next = "give a map of the same vertices and faces, in the same order";
     if (start.vertex_count() != source.vertex_count())
         throw Error(Cause::bad_mesh,
@@ -37,6 +36,12 @@ std::optional<Eigen::VectorXcd> StartMapOption::load(const Mesh& source, Warning
             throw Error(Cause::bad_mesh, other + "face " + std::to_string(f) + " has other vertices", next,
                         {Things::faces, {f}});
     }
+    return start;
+}
+
+std::optional<Eigen::VectorXcd> StartMapOption::load(const Mesh& source, Warnings& warnings) const {
+    if (!given()) return {};
+    const Mesh start = load_of_same_faces("--start-map", path_, source, warnings);
     try {
         return texture_map(start);
     } catch (const Error& error) {

@@ -11,6 +11,10 @@
 
 namespace beltrami::cli {
 
+/// A mesh with SOURCE's vertices and faces in their order. Warnings of the reader are added.
+/// @throw Error unreadable, bad_mesh naming what differs from SOURCE
+Mesh load_of_same_faces(const std::string& option, const std::string& path, const Mesh& source, Warnings& warnings);
+
 /// --start-map: a map of SOURCE from which the iteration begins, as the vt of a mesh of the same faces.
 class StartMapOption {
   public:

@@ -65,6 +65,10 @@
 #include <beltrami/operators/surface.h>
 #include <beltrami/plane/disk_moebius.h>
 #include <beltrami/plane/target_curve.h>
+#include <beltrami/registration/nearest_places.h>
+#include <beltrami/registration/register_open.h>
+#include <beltrami/registration/register_spheres.h>
+#include <beltrami/registration/transfer.h>
 #include <beltrami/report/page.h>
 #include <beltrami/report/record.h>
 #include <beltrami/report/record_json.h>
@@ -80,6 +84,7 @@
 #include <beltrami/teichmuller/extremal_between.h>
 #include <beltrami/teichmuller/extremal_map.h>
 #include <beltrami/teichmuller/extremal_solver.h>
+#include <beltrami/teichmuller/extremal_sphere.h>
 #include <beltrami/teichmuller/least_dilatation.h>
 #include <beltrami/teichmuller/torus_map.h>
 #include <beltrami/unfold/fold_free.h>

@@ -14,7 +14,7 @@ from support import BELTRAMI, SCHEMA
 
 ROOT = pathlib.Path(__file__).parents[2]
 PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md")])
-COMMANDS = ("info", "measure", "map", "flatten", "uniformize", "flow", "grid", "distance", "apply")
+COMMANDS = ("info", "measure", "map", "flatten", "uniformize", "flow", "grid", "distance", "apply", "register", "transfer")
 # Options of other programs in lines that do not call the command.
 FOREIGN = {"--install", "--prefix", "--help", "--version"}
 
@@ -120,8 +120,8 @@ class Options(unittest.TestCase):
         for command, known in self.known.items():
             with self.subTest(command=command):
                 self.assertIn("--quiet", known)
-                self.assertEqual(command != "apply", {"--json", "--threads"} <= known)
-                self.assertEqual(command not in ("info", "distance", "apply"), "--report" in known)
+                self.assertEqual(command not in ("apply", "transfer"), {"--json", "--threads"} <= known)
+                self.assertEqual(command not in ("info", "distance", "apply", "transfer"), "--report" in known)
 
 
 if __name__ == "__main__":

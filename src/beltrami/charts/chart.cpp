@@ -59,17 +59,16 @@ Eigen::VectorXd vertex_areas(const Operators& operators) {
     return area;
 }
 
-Chart make_chart(const Surface& source, Eigen::VectorXcd vertices, bool exact) {
-    const Operators& operators = source.operators;
-    Chart chart;
-    chart.exact = exact;
-    chart.vertices = std::move(vertices);
-    chart.positions = at_samples(operators, chart.vertices);
+namespace {
+
+/// Derivatives, positions at the samples and excluded samples of values that the operators read.
+void take_samples(const Operators& operators, const Eigen::VectorXcd& values, Chart& chart) {
+    chart.positions = at_samples(operators, values);
     chart.derivatives.resize(operators.sample_count());
     chart.excluded.assign(operators.sample_count(), 0);
     std::vector<int> excluded;
     for (int s = 0; s < operators.sample_count(); ++s) {
-        const auto [dz, dzbar] = operators.derivatives(s, chart.vertices);
+        const auto [dz, dzbar] = operators.derivatives(s, values);
         chart.derivatives[s] = dz;
         if (!(std::abs(dzbar) < kMostDistorted * std::abs(dz))) {
             chart.excluded[s] = 1;
@@ -83,6 +82,22 @@ Chart make_chart(const Surface& source, Eigen::VectorXcd vertices, bool exact) {
                                       std::to_string(chart.excluded_faces) +
                                       " faces; they are left out when the quadratic differential is determined",
                                   {Things::faces, std::move(excluded)}});
+}
+
+}  // namespace
+
+Chart make_chart(const Surface& source, Eigen::VectorXcd vertices, bool exact) {
+    Chart chart;
+    chart.exact = exact;
+    chart.vertices = std::move(vertices);
+    take_samples(source.operators, chart.vertices, chart);
+    return chart;
+}
+
+Chart make_atlas(const Surface& source, Eigen::VectorXcd corners) {
+    Chart chart;
+    chart.corners = std::move(corners);
+    take_samples(per_corner(source.operators, source.mesh.faces), chart.corners, chart);
     return chart;
 }
 

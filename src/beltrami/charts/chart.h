@@ -14,7 +14,9 @@ namespace beltrami BELTRAMI_PUBLIC {
 /// A conformal map of a surface to a canonical domain, in which quadratic differentials are easy to write down.
 /// A differential ψ of the domain is pulled back to a sample by φ = ψ(position) · derivative².
 struct Chart {
-    Eigen::VectorXcd vertices;     ///< #V positions in the canonical domain
+    Eigen::VectorXcd vertices;  ///< #V positions in the canonical domain; empty where corners has them
+    /// #corners positions where a vertex may have several: of an atlas whose parts lie side by side. Else empty.
+    Eigen::VectorXcd corners;
     Eigen::VectorXcd positions;    ///< #S the samples' positions
     Eigen::VectorXcd derivatives;  ///< #S ∂ of the chart in the samples' frames
     std::vector<char> excluded;  ///< #S 1 where the chart has |μ| ≥ ½ or turns the sample over: ψ means nothing there
@@ -40,6 +42,9 @@ struct Chart {
 
 /// The chart whose vertex positions are @p vertices: derivatives, positions at the samples, excluded samples.
 Chart make_chart(const Surface& source, Eigen::VectorXcd vertices, bool exact);
+
+/// The same of positions of the face corners (#corners), no longer exact.
+Chart make_atlas(const Surface& source, Eigen::VectorXcd corners);
 
 /// The part of the chart's area in samples that it flips, or so distorts that their shape there is none: |μ| ≥
 /// .95.

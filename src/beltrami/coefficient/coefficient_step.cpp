@@ -46,28 +46,38 @@ Eigen::VectorXd areas_in_domain(const Operators& operators, const Chart& chart) 
 }  // namespace
 
 CoefficientStep::CoefficientStep(const Surface& source, const Chart& chart, const Singularities& singularities,
-                                 double phase, int cluster_count, Sums sums)
+                                 double phase, int cluster_count, Eigen::VectorXd areas)
     : source_(source),
       chart_(chart),
       singularities_(singularities),
       phase_(phase),
       cluster_count_(cluster_count),
       sampled_(chart, singularities, phase),
-      areas_(areas_in_domain(source.operators, chart)) {
+      areas_(std::move(areas)) {
     soft_ = !singularities.curves.empty();
     edge_ = std::sqrt(areas_.sum() / static_cast<double>(source.operators.sample_count()));
+}
+
+CoefficientStep::CoefficientStep(const Surface& source, const Chart& chart, const Singularities& singularities,
+                                 double phase, int cluster_count, Sums sums)
+    : CoefficientStep(source, chart, singularities, phase, cluster_count, areas_in_domain(source.operators, chart)) {
     if (sums == Sums::over_cells && singularities.empty() && chart.positions.size() > cluster_count) {
         cells_.emplace(chart, areas_, phase);
         quadrature_ = {cells_->nodes(), cells_->node_weights(areas_)};
     } else {
-        make_clusters();
+        make_clusters(points_near(singularities_, source_, chart_));
     }
 }
 
-void CoefficientStep::make_clusters() {
+CoefficientStep::CoefficientStep(const Surface& source, const Chart& chart, const Singularities& singularities,
+                                 double phase, int cluster_count, SamplePoints means)
+    : CoefficientStep(source, chart, singularities, phase, cluster_count, areas_in_domain(source.operators, chart)) {
+    make_clusters(std::move(means));
+}
+
+void CoefficientStep::make_clusters(SamplePoints means) {
     clusters_ = cluster_samples(source_.operators, chart_, singularities_, phase_,
                                 soft_ ? std::max(cluster_count_, kClustersWithCurves) : cluster_count_);
-    SamplePoints means = points_near(singularities_, source_, chart_);
     set_quadrature(means);
     sampled_.set_means(std::move(means));
 }
@@ -124,7 +134,7 @@ void CoefficientStep::set_space(const DifferentialSpace& space) {
         at_places_ = SplitMatrix(space.generators(in_domain(cells_->places())));
         return;
     }
-    if (clusters_.cluster.empty()) make_clusters();
+    if (clusters_.cluster.empty()) make_clusters(points_near(singularities_, source_, chart_));
     problem_.basis = space.tabulated() ? means_over_clusters(*space.tabulated(), clusters_, chart_)
                                        : space.evaluate(in_domain(quadrature_.points));
     if (space.tabulated() && space.transform()) problem_.basis = complex_product(problem_.basis, *space.transform());

@@ -36,6 +36,9 @@ class CoefficientStep {
     /// @param sums  over cells only where φ has no singularities, and where there are more samples than clusters
     CoefficientStep(const Surface& source, const Chart& chart, const Singularities& singularities, double phase,
                     int cluster_count, Sums sums = Sums::over_samples);
+    /// The same with samples that have several points given: those of points_near() else.
+    CoefficientStep(const Surface& source, const Chart& chart, const Singularities& singularities, double phase,
+                    int cluster_count, SamplePoints means);
 
     /// Points of the canonical domain that resolve what the c-step sees, with their areas.
     const QuadraturePoints& quadrature() const { return quadrature_; }
@@ -76,7 +79,9 @@ class CoefficientStep {
     Result solve_on_samples(const Weights& weights, const Eigen::VectorXcd& start, DualOptions options);
     /// A start without one, and δ for the rest.
     Eigen::VectorXcd begin(const Eigen::VectorXcd& start);
-    void make_clusters();
+    CoefficientStep(const Surface& source, const Chart& chart, const Singularities& singularities, double phase,
+                    int cluster_count, Eigen::VectorXd areas);
+    void make_clusters(SamplePoints means);
     /// A part of a cluster.
     struct Part {
         int cluster;

@@ -55,7 +55,8 @@ Place inside(const Piece& piece, const Node& node) {
 /// Position, derivative and area element at the places of faces.
 class Places {
   public:
-    Places(const Surface& source, const Chart& chart) : operators_(source.operators), chart_(chart) {
+    Places(const Surface& source, const Chart& chart)
+        : operators_(source.operators), faces_(source.mesh.faces), chart_(chart) {
         analytic_ = chart.exact && chart.analytic && source.in_plane();
         if (source.in_plane()) plane_ = *source.coordinate();
     }
@@ -67,13 +68,13 @@ class Places {
     At operator()(int sample, const Place& p) const {
         const auto v = operators_.stencil(sample);
         At at{0.0, chart_.derivatives[sample], 2 * operators_.weights[sample]};
-        const Eigen::VectorXcd& points = analytic_ ? plane_ : chart_.vertices;
+        const std::array<Complex, 4> points = corners(sample);
         if (v.size() == 3) {
-            at.position = points[v[0]] + p[0] * (points[v[1]] - points[v[0]]) + p[1] * (points[v[2]] - points[v[0]]);
+            at.position = points[0] + p[0] * (points[1] - points[0]) + p[1] * (points[2] - points[0]);
         } else {
             const double x = p[0], y = p[1];
-            at.position = (1 - x) * (1 - y) * points[v[0]] + x * (1 - y) * points[v[1]] + x * y * points[v[2]] +
-                          (1 - x) * y * points[v[3]];
+            at.position =
+                (1 - x) * (1 - y) * points[0] + x * (1 - y) * points[1] + x * y * points[2] + (1 - x) * y * points[3];
             at.area = 4 * operators_.weights[sample];
             if (plane_.size()) {
                 const Complex along_x = (1 - y) * (plane_[v[1]] - plane_[v[0]]) + y * (plane_[v[2]] - plane_[v[3]]);
@@ -90,7 +91,19 @@ class Places {
     }
 
   private:
+    std::array<Complex, 4> corners(int sample) const {
+        const auto v = operators_.stencil(sample);
+        const int first = chart_.corners.size() ? faces_.first_corner(operators_.faces[sample]) : 0;
+        std::array<Complex, 4> points{};
+        for (std::size_t j = 0; j < v.size(); ++j)
+            points[j] = analytic_               ? plane_[v[j]]
+                        : chart_.corners.size() ? chart_.corners[first + static_cast<int>(j)]
+                                                : chart_.vertices[v[j]];
+        return points;
+    }
+
     const Operators& operators_;
+    const FaceList& faces_;
     const Chart& chart_;
     bool analytic_;
     Eigen::VectorXcd plane_;  ///< empty for a surface in space

@@ -45,6 +45,17 @@ std::vector<int> vertices_at(const Chart& chart, std::vector<Complex> places) {
     return vertices;
 }
 
+/// The position of a place in a chart that is known at the corners of faces.
+Complex in_atlas(const Surface& source, const Chart& chart, const MeshPoint& place) {
+    const auto corners = source.mesh.faces[place.face];
+    Complex sum = 0;
+    for (int i = 0; i < 3; ++i) {
+        const auto corner = std::find(corners.begin(), corners.end(), place.vertices[i]) - corners.begin();
+        sum += place.barycentric[i] * chart.corners[source.mesh.faces.first_corner(place.face) + corner];
+    }
+    return sum;
+}
+
 }  // namespace
 
 Eigen::VectorXcd QuadraticDifferential::at_samples(const Surface& source) const {
@@ -138,7 +149,8 @@ ChartPoints chart_points(const Surface& source, const Chart& chart, std::span<co
     }
     const std::vector<int> samples = nearest_samples(source, places);
     for (Eigen::Index i = 0; i < count; ++i) {
-        points.positions[i] = places[i].interpolate(chart.vertices);
+        points.positions[i] =
+            chart.corners.size() ? in_atlas(source, chart, places[i]) : places[i].interpolate(chart.vertices);
         points.derivatives[i] = chart.derivatives[samples[i]];
     }
     return points;

@@ -125,6 +125,48 @@ TorusRecord torus_record(const FlatTorus& torus) {
     return {torus.tau, torus.tau_error, {unit, unit * std::abs(torus.tau)}, torus.flips};
 }
 
+MapRecord map_record(const ExtremalSphereMap& result) {
+    MapRecord record = map_record(result.distortion);
+    record.k = result.k;
+    record.K = result.K;
+    record.K_lower = result.K_lower;
+    record.bounds = result.bounds;
+    return record;
+}
+
+SolveRecord solve_record(const ExtremalSphereMap& result, double seconds_total) {
+    return {result.iterations, to_string(result.termination), result.factorizations, seconds_total, {}, false,
+            result.history};
+}
+
+namespace {
+
+RegistrationRecord carried_record(const CarriedSurface& result, const std::string& target, std::size_t landmarks) {
+    RegistrationRecord record;
+    record.target = target;
+    record.landmarks = static_cast<int>(landmarks);
+    record.flipped_in_space = static_cast<int>(result.in_space.flipped.size());
+    record.unresolved = static_cast<int>(result.unresolved.size());
+    record.largest_distance = result.largest_distance;
+    return record;
+}
+
+}  // namespace
+
+RegistrationRecord registration_record(const SphereRegistration& result, const std::string& target,
+                                       std::size_t landmarks) {
+    RegistrationRecord record = carried_record(result, target, landmarks);
+    record.sphere = {result.map.dimension, result.map.weighted_mean, result.map.weighted_deviation,
+                     result.map.separation};
+    record.inverse_k = result.inverse_k;
+    return record;
+}
+
+RegistrationRecord registration_record(const OpenRegistration& result, const std::string& target,
+                                       std::size_t landmarks) {
+    return carried_record(result, target, landmarks);
+}
+
 SolveRecord solve_record(const LeastMaximumMap& result, double seconds_total) {
     // Where rounding allows no better map, it has converged.
     const bool settled = result.fold_free && result.status != FoldFreeStatus::iteration_limit;

@@ -10,7 +10,10 @@
 #include <beltrami/flow/beltrami_flow.h>
 #include <beltrami/forms/flat_torus.h>
 #include <beltrami/forms/period_matrix.h>
+#include <beltrami/registration/register_open.h>
+#include <beltrami/registration/register_spheres.h>
 #include <beltrami/report/grid_record.h>
+#include <beltrami/report/registration_record.h>
 #include <beltrami/teichmuller/certify.h>
 #include <beltrami/teichmuller/distance.h>
 #include <beltrami/teichmuller/extremal_between.h>
@@ -201,6 +204,7 @@ struct Record {
     std::optional<SphereRecord> sphere;
     std::optional<PeriodsRecord> periods;
     std::optional<TorusRecord> torus;
+    std::optional<RegistrationRecord> registration;
     std::optional<FlowRecord> flow;
     std::optional<GridRecord> grid;
     std::optional<DistancesRecord> distances;
@@ -229,6 +233,12 @@ SphereRecord sphere_record(const SphereMap& result);
 PeriodsRecord periods_record(const HomologyBasis& loops, const Eigen::MatrixXi& basis, const Eigen::MatrixXcd& periods,
                              double unit = 1);
 TorusRecord torus_record(const FlatTorus& torus);
+MapRecord map_record(const ExtremalSphereMap& result);
+SolveRecord solve_record(const ExtremalSphereMap& result, double seconds_total);
+RegistrationRecord registration_record(const SphereRegistration& result, const std::string& target,
+                                       std::size_t landmarks);
+RegistrationRecord registration_record(const OpenRegistration& result, const std::string& target,
+                                       std::size_t landmarks);
 CornersRecord corners_record(const ExtremalMap& result);
 /// @param source_vertices number of vertices before the split
 SplitRecord split_record(const SplitProblem& split, int source_vertices);

@@ -155,6 +155,20 @@ Json to_object(const TorusRecord& torus) {
             {"flips", torus.flips}};
 }
 
+Json to_object(const RegistrationRecord& registration) {
+    Json object = {{"target", registration.target}, {"landmarks", registration.landmarks}};
+    if (const auto& sphere = registration.sphere) {
+        object["dimension"] = sphere->dimension;
+        object["by_phi"] = {{"mean", number(sphere->weighted_mean)}, {"std", number(sphere->weighted_deviation)}};
+        object["separation"] = number(sphere->separation);
+    }
+    object["flipped_in_space"] = registration.flipped_in_space;
+    object["unresolved"] = registration.unresolved;
+    put(object, "inverse_k", registration.inverse_k);
+    put(object, "largest_distance", registration.largest_distance);
+    return object;
+}
+
 Json to_object(const FlowRecord& flow) {
     Json object = {{"coefficient", flow.coefficient}};
     if (flow.target) object["target"] = *flow.target;
@@ -330,6 +344,7 @@ std::string to_json(const Record& record) {
     if (record.sphere) json["sphere"] = to_object(*record.sphere);
     if (record.periods) json["periods"] = to_object(*record.periods);
     if (record.torus) json["torus"] = to_object(*record.torus);
+    if (record.registration) json["registration"] = to_object(*record.registration);
     if (record.flow) json["flow"] = to_object(*record.flow);
     if (record.grid) json["grid"] = to_object(*record.grid);
     if (record.distances) json["distances"] = to_object(*record.distances);

@@ -95,6 +95,21 @@ std::string line_of(const TorusRecord& torus) {
         torus.tau.real() + 0.0, torus.tau.imag(), torus.tau_error, torus.lengths[0], torus.lengths[1]);
 }
 
+/// How the map sits in space.
+std::string lines_of(const RegistrationRecord& registration) {
+    std::string text;
+    if (const auto& sphere = registration.sphere)
+        text += fmt::format("weighted by |phi|, |mu| is {:.4f} with a deviation of {:.4f}\n", sphere->weighted_mean,
+                            sphere->weighted_deviation);
+    text += fmt::format("straight faces in space: {} flipped, {} where the mesh does not resolve the map\n",
+                        registration.flipped_in_space, registration.unresolved);
+    if (registration.inverse_k) text += fmt::format("the inverse map has k = {:.4f}\n", *registration.inverse_k);
+    if (registration.largest_distance)
+        text +=
+            fmt::format("soft landmarks are at most {:.4g} away from their places\n", *registration.largest_distance);
+    return text;
+}
+
 std::string cell(const std::optional<double>& value, int digits) {
     if (!value) return "";
     if (std::isnan(*value)) return "-";
@@ -165,6 +180,7 @@ std::string to_remarks(const Record& record) {
     if (record.sphere) text += line_of(*record.sphere);
     if (record.periods) text += lines_of(*record.periods);
     if (record.torus) text += line_of(*record.torus);
+    if (record.registration) text += lines_of(*record.registration);
     if (record.flow)
         text += fmt::format(
             "coefficient: off by {:.3g} (root mean square), {:.3g} at most; relative residual {:.3g}, of it {:.3g} no "
@@ -186,9 +202,10 @@ std::string to_sentence(const Record& record) {
     if (!rigorous && map.K_lower_proved && *map.K_lower_proved > 1)
         proved += fmt::format("; proved: K = {:.3f}", std::floor(*map.K_lower_proved * 1e3) / 1e3);
     // Rounded so that what is said stays true.
-    const char* prescribed = record.onto       ? "loops and marks in this homotopy class"
-                             : record.homotopy ? "boundary values in this homotopy class"
-                                               : "boundary values";
+    const char* prescribed = record.onto           ? "loops and marks in this homotopy class"
+                             : record.registration ? "places of the landmarks in this homotopy class"
+                             : record.homotopy     ? "boundary values in this homotopy class"
+                                                   : "boundary values";
     return fmt::format(
         "no map with these {} stretches less than K = {:.3f} ({})\n"
         "this one: about {:.3f}, at most {:.3f} on 99 % of the area\n",

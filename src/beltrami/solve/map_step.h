@@ -12,6 +12,8 @@ namespace beltrami {
 class MapStep {
   public:
     virtual ~MapStep() = default;
+    /// Told before each solve(): the φ (#S) whose coefficient comes next, by which a step may weigh the samples.
+    virtual void weigh(const Eigen::VectorXcd& /*phi*/) {}
     /// Makes the map that with a coefficient, from where it stands.
     /// @param nu        #S coefficients in the samples' frames, |ν| < 1
     /// @param tolerance of the error, relative to the map, in the energy norm: more need not be had

@@ -26,29 +26,23 @@ constexpr double kShort = 0.3, kNearlyFull = 0.9;  // step lengths at which the 
 constexpr double kFirstDamping = 1e-3, kLeastDamping = 1e-5, kDampingFactor = 4;
 constexpr double kNoticeable = 1e-2;
 
-}  // namespace
-
-/// A sample of the map: its derivatives in an orthonormal frame of the image, seen from outside.
-struct SphereBarrier::Sample {
+/// Derivatives of a map in an orthonormal frame of the image, seen from outside.
+struct Frame {
     Complex p, q;            // ∂f, ∂̄f
     Eigen::Vector3d e1, e2;  // the frame
-    Complex quotient;        // T
-    Complex denominator;     // 1 − conj(σ) μ
     bool upright = false;
+
+    /// ∂̄ of a motion as a function of the image, from its derivatives ½ b conj(g) and ½ b g in the source: of the
+    /// vertex with the gradient g, which moves by a direction.
+    Complex change(Complex g, const Eigen::Vector3d& direction) const {
+        const Complex b(direction.dot(e1), direction.dot(e2));
+        return 0.5 * b * (p * g - q * std::conj(g)) / (std::norm(p) - std::norm(q));
+    }
 };
 
-SphereBarrier::SphereBarrier(const Operators& operators, std::vector<Freedom> freedoms, Eigen::VectorXcd sigma,
-                             std::vector<double> weights)
-    : operators_(operators),
-      freedoms_(std::move(freedoms)),
-      sigma_(std::move(sigma)),
-      weights_(std::move(weights)),
-      total_weight_(std::accumulate(weights_.begin(), weights_.end(), 0.0)),
-      system_(operators, freedoms_, kExpectedFactorizations) {}
-
-SphereBarrier::Sample SphereBarrier::at(int sample, const Positions& points) const {
-    const auto stencil = operators_.stencil(sample);
-    const auto gradient = operators_.gradient(sample);
+Frame frame_at(const Operators& operators, int sample, const Positions& points) {
+    const auto stencil = operators.stencil(sample);
+    const auto gradient = operators.gradient(sample);
     Eigen::Vector3d x = Eigen::Vector3d::Zero(), y = x, up = x;
     const Eigen::Vector3d base = points.row(stencil[0]);
     for (std::size_t j = 0; j < stencil.size(); ++j) {
@@ -57,14 +51,41 @@ SphereBarrier::Sample SphereBarrier::at(int sample, const Positions& points) con
         y += gradient[j].imag() * (point - base);
         up += point;
     }
-    Sample s;
+    Frame frame;
     const Eigen::Vector3d normal = x.cross(y);
-    if (!(normal.dot(up) > 0)) return s;
-    s.e1 = (x.squaredNorm() >= y.squaredNorm() ? x : y).normalized();
-    s.e2 = normal.cross(s.e1).normalized();
-    const Complex fx(x.dot(s.e1), x.dot(s.e2)), fy(y.dot(s.e1), y.dot(s.e2)), i(0, 1);
-    s.p = 0.5 * (fx - i * fy);
-    s.q = 0.5 * (fx + i * fy);
+    frame.upright = normal.dot(up) > 0;
+    if (!frame.upright) return frame;
+    frame.e1 = (x.squaredNorm() >= y.squaredNorm() ? x : y).normalized();
+    frame.e2 = normal.cross(frame.e1).normalized();
+    const Complex fx(x.dot(frame.e1), x.dot(frame.e2)), fy(y.dot(frame.e1), y.dot(frame.e2)), i(0, 1);
+    frame.p = 0.5 * (fx - i * fy);
+    frame.q = 0.5 * (fx + i * fy);
+    return frame;
+}
+
+}  // namespace
+
+/// A sample of the map.
+struct SphereBarrier::Sample : Frame {
+    Complex quotient;     // T
+    Complex denominator;  // 1 − conj(σ) μ
+};
+
+SphereBarrier::SphereBarrier(const Operators& operators, std::vector<Freedom> freedoms, Eigen::VectorXcd sigma,
+                             std::vector<double> weights)
+    : operators_(operators), freedoms_(std::move(freedoms)), system_(operators, freedoms_, kExpectedFactorizations) {
+    aim(std::move(sigma), std::move(weights));
+}
+
+void SphereBarrier::aim(Eigen::VectorXcd sigma, std::vector<double> weights) {
+    sigma_ = std::move(sigma);
+    weights_ = std::move(weights);
+    total_weight_ = std::accumulate(weights_.begin(), weights_.end(), 0.0);
+}
+
+SphereBarrier::Sample SphereBarrier::at(int sample, const Positions& points) const {
+    Sample s{frame_at(operators_, sample, points), {}, {}};
+    if (!s.upright) return s;
     const Complex mu = s.q / s.p;
     s.denominator = 1.0 - std::conj(sigma_[sample]) * mu;
     s.quotient = (mu - sigma_[sample]) / s.denominator;
@@ -114,14 +135,11 @@ void SphereBarrier::assemble(const Positions& points, const Eigen::VectorXd& uni
         Complex phase = std::conj(sample.p) / sample.p;
         phase *= std::norm(sample.denominator) / (sample.denominator * sample.denominator);
         if (d > 1e-14) phase *= std::conj(sample.quotient) / d;
-        const double area = std::norm(sample.p) - std::norm(sample.q);
         for (std::size_t j = 0; j < stencil.size(); ++j) {
             const TangentFrame frame(points.row(stencil[j]));
             for (int a = 0; a < 2; ++a) {
                 const Eigen::Vector3d direction = units[stencil[j]] * (a == 0 ? frame.first : frame.second);
-                const Complex b(direction.dot(sample.e1), direction.dot(sample.e2));
-                // ∂̄ of the motion as a function of the image, from its derivatives ½ b conj(g) and ½ b g in the source.
-                const Complex change = 0.5 * b * (sample.p * g[j] - sample.q * std::conj(g[j])) / area * phase;
+                const Complex change = sample.change(g[j], direction) * phase;
                 along[2 * j + a] = change.real();
                 across[2 * j + a] = change.imag();
             }
@@ -161,12 +179,16 @@ SphereBarrier::Taken SphereBarrier::step(Positions& points) {
     }
     const double largest = motion.rowwise().norm().maxCoeff();
     Taken taken;
-    for (double length = std::min(1.0, kLongestMotion / largest); length > kShortest; length *= 0.5) {
+    double length = std::min(1.0, kLongestMotion / largest);
+    while (length > kShortest) {
         Positions trial = points + length * motion;
         for (Eigen::Index v = 0; v < trial.rows(); ++v)
             if (freedoms_[v] != Freedom::fixed) trial.row(v).normalize();
         const double there = value(trial);
-        if (!(there < before)) continue;
+        if (!(there < before)) {
+            length *= 0.5;
+            continue;
+        }
         points = std::move(trial);
         taken = {length, 1 - there / before, damping_ > kNoticeable};
         break;
@@ -176,6 +198,22 @@ SphereBarrier::Taken SphereBarrier::step(Positions& points) {
     else if (taken.length > kNearlyFull)
         damping_ = damping_ / kDampingFactor < kLeastDamping ? 0 : damping_ / kDampingFactor;
     return taken;
+}
+
+Eigen::VectorXcd coefficient_change(const Operators& operators, const Positions& points, const Positions& motion) {
+    Eigen::VectorXcd change(operators.sample_count());
+    parallel_for(0, operators.sample_count(), [&](int first, int last) {
+        for (int s = first; s < last; ++s) {
+            const Frame frame = frame_at(operators, s, points);
+            const auto stencil = operators.stencil(s);
+            const auto gradient = operators.gradient(s);
+            Complex sum = 0;
+            for (std::size_t j = 0; j < stencil.size(); ++j)
+                sum += frame.change(gradient[j], motion.row(stencil[j]).transpose());
+            change[s] = sum * std::conj(frame.p) / frame.p;
+        }
+    });
+    return change;
 }
 
 }  // namespace beltrami

@@ -28,6 +28,9 @@ class SphereBarrier {
     SphereBarrier(const Operators& operators, std::vector<Freedom> freedoms, Eigen::VectorXcd sigma,
                   std::vector<double> weights);
 
+    /// Another σ and other weights from now on.
+    void aim(Eigen::VectorXcd sigma, std::vector<double> weights);
+
     /// F of a map (#V×3 unit vectors); infinite where a sample is flipped.
     double value(const Positions& points) const;
 
@@ -57,5 +60,10 @@ class SphereBarrier {
     double damping_ = 0;
     CoupledSystem system_;
 };
+
+/// δμ/(1 − |μ|²) = V_w̄ conj(p)/p at the samples of a map to the sphere whose vertices move by V.
+/// @param points #V×3 unit vectors, no sample flipped
+/// @param motion #V×3, tangent to the sphere
+Eigen::VectorXcd coefficient_change(const Operators& operators, const Positions& points, const Positions& motion);
 
 }  // namespace beltrami

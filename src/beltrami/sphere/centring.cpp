@@ -6,6 +6,8 @@
 
 #include <Eigen/Cholesky>
 
+#include <beltrami/sphere/moebius_shift.h>
+
 namespace beltrami {
 
 namespace {
@@ -25,20 +27,11 @@ double weighted_median(const Eigen::VectorXd& values, const Eigen::VectorXd& wei
               [&](int a, int b) { return values[a] != values[b] ? values[a] < values[b] : a < b; });
     const double half = 0.5 * weights.sum();
     double below = 0;
-    for (const int v : order)
-        if ((below += weights[v]) >= half) return values[v];
-    return values[order.back()];
-}
-
-/// Q ↦ (1 − |c|²)(Q + c)/|Q + c|² + c: the Möbius map of the sphere that takes −c to the centre of the ball.
-Positions shifted(const Positions& points, const Eigen::RowVector3d& c) {
-    Positions result(points.rows(), 3);
-    const double factor = 1 - c.squaredNorm();
-    for (Eigen::Index v = 0; v < points.rows(); ++v) {
-        const Eigen::RowVector3d d = points.row(v) + c;
-        result.row(v) = (factor / d.squaredNorm() * d + c).normalized();
+    for (const int v : order) {
+        below += weights[v];
+        if (below >= half) return values[v];
     }
-    return result;
+    return values[order.back()];
 }
 
 /// Σ w log(|Q + c|²/(1 − |c|²)): convex in hyperbolic space, its gradient at c = 0 is twice the centre of mass.
@@ -71,7 +64,7 @@ CentredSphere centred(Positions points, const Eigen::VectorXd& weights) {
             // Near the end rounding hides the fall of the sum, while the centre of mass still shows progress.
             const bool near = mean.norm() < kRounding;
             if (!near && !(busemann_sum(points, w, length * c) <= kArmijo * length * slope)) continue;
-            Positions trial = shifted(points, length * c);
+            Positions trial = moebius_shifted(points, length * c);
             const Eigen::RowVector3d trial_mean = centre(trial);
             accepted = !near || trial_mean.norm() < mean.norm();
             if (!accepted) continue;

@@ -126,7 +126,9 @@ void HamiltonIteration::run(HamiltonState& state, std::unique_ptr<DifferentialSp
     double last_change = 1, relaxation = 1;
     bool accelerated = false;
     while (iterations_ < options_.max_iterations) {
-        const Eigen::VectorXcd nu = coefficient_step_.coefficient(state.k, coefficient_step_.values(state.direction));
+        const Eigen::VectorXcd& phi = coefficient_step_.values(state.direction);
+        const Eigen::VectorXcd nu = coefficient_step_.coefficient(state.k, phi);
+        map_step_.weigh(phi);
         map_step_.solve(nu, kSolveBelowChange * std::min(change, 0.1));
         ++iterations_;
         const Eigen::VectorXcd mu = beltrami_coefficient(map_step_.derivatives());

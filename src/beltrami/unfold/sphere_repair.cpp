@@ -53,8 +53,14 @@ struct Patch {
 
 class Repair {
   public:
-    Repair(const Surface& source, const SphereFaces& faces, Positions& points)
-        : source_(source), faces_(faces), points_(points), around_(source.mesh.faces, source.mesh.vertex_count()) {}
+    Repair(const Surface& source, const SphereFaces& faces, Positions& points, std::span<const int> held)
+        : source_(source),
+          faces_(faces),
+          points_(points),
+          around_(source.mesh.faces, source.mesh.vertex_count()),
+          held_(static_cast<std::size_t>(source.mesh.vertex_count()), 0) {
+        for (const int v : held) held_[v] = 1;
+    }
 
     SphereRepair run() {
         result_.flipped = faces_.flipped(points_);
@@ -149,7 +155,7 @@ class Repair {
         for (std::size_t v = 0; v < patch.part.vertices.size(); ++v) {
             const int whole = patch.part.vertices[v];
             patch.plane[v] = patch.chart(points_.row(whole));
-            patch.moves.push_back(std::ranges::binary_search(vertices, whole));
+            patch.moves.push_back(!held_[whole] && std::ranges::binary_search(vertices, whole));
         }
         return patch;
     }
@@ -157,8 +163,7 @@ class Repair {
     /// The corners of the patch' faces in the source's metric.
     Positions corners_of(const Patch& patch) const {
         const FaceList& faces = source_.mesh.faces;
-        const Positions of_mesh = source_.metric ? Positions() : corner_positions(patch.part.mesh);
-        if (!source_.metric) return of_mesh;
+        if (!source_.metric) return corner_positions(patch.part.mesh);
         Positions corners(patch.part.mesh.faces.corner_count(), source_.metric->cols());
         for (std::size_t f = 0; f < patch.part.faces.size(); ++f)
             corners.middleRows(patch.part.mesh.faces.first_corner(static_cast<int>(f)),
@@ -183,6 +188,7 @@ class Repair {
         const FaceList& faces = patch.part.mesh.faces;
         Positions corners = corners_of(patch);
         std::vector<Freedom> freedoms;
+        freedoms.reserve(patch.moves.size());
         for (const char moves : patch.moves) freedoms.push_back(moves ? Freedom::free : Freedom::fixed);
         // Faces differ in size by orders of magnitude: each is measured in units of its own.
         const auto longest = [](int degree, auto&& point) {
@@ -235,13 +241,15 @@ class Repair {
     const SphereFaces& faces_;
     Positions& points_;
     FacesAround around_;
+    std::vector<char> held_;  // #V
     SphereRepair result_;
 };
 
 }  // namespace
 
-SphereRepair repair_sphere_map(const Surface& source, const SphereFaces& faces, Positions& points) {
-    return Repair(source, faces, points).run();
+SphereRepair repair_sphere_map(const Surface& source, const SphereFaces& faces, Positions& points,
+                               std::span<const int> held) {
+    return Repair(source, faces, points, held).run();
 }
 
 }  // namespace beltrami

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include <beltrami/unfold/sphere_faces.h>
@@ -20,6 +21,8 @@ struct SphereRepair {
 /// (fold_free.h), every face measured in units of its own size in the image. Patches that leave a hemisphere are passed
 /// over.
 /// @param points #V×3 unit vectors; changed
-SphereRepair repair_sphere_map(const Surface& source, const SphereFaces& faces, Positions& points);
+/// @param held   vertices that stay
+SphereRepair repair_sphere_map(const Surface& source, const SphereFaces& faces, Positions& points,
+                               std::span<const int> held = {});
 
 }  // namespace beltrami

@@ -11,6 +11,7 @@
 
 #include <beltrami/base/error.h>
 #include <beltrami/meshing/face_split.h>
+#include <beltrami/solve/raised_corners.h>
 #include <beltrami/solve/sphere_barrier.h>
 #include <beltrami/sphere/centring.h>
 #include <beltrami/sphere/unit_sphere.h>
@@ -28,25 +29,8 @@ constexpr int kMostIdealVertices = 3, kMostBarrierSteps = 60;
 constexpr int kMostRoots = 8, kRootFaces = 5000;  // more roots on small meshes: up to so many faces in all
 constexpr double kBarrierSettled = 1e-2;          // relative fall of the energy in a step that is nearly full
 constexpr double kBarrierFull = 0.4;
-constexpr double kLeastHeight = 0.01;  // of a source triangle, relative to its longest side, where shapes count
 constexpr double kUnresolved = 1e-13;
 constexpr double kOffCentre = 1e-6;
-
-void require_sphere(const Surface& source) {
-    const Topology& shape = source.topology;
-    if (shape.components != 1)
-        throw Error(Cause::bad_mesh, "the surface has " + std::to_string(shape.components) + " components",
-                    "map them to spheres one at a time");
-    if (!shape.boundary_loops.empty())
-        throw Error(Cause::bad_mesh,
-                    "the surface is open, with " + std::to_string(shape.boundary_loops.size()) +
-                        " boundary loops, and only a closed one goes to the sphere",
-                    "fill its holes, or map it to a disk", {Things::vertices, shape.boundary_loops[0]});
-    if (shape.genus != 0)
-        throw Error(Cause::bad_mesh,
-                    "the surface has genus " + std::to_string(shape.genus) + " and the sphere has none",
-                    "remove its handles, or cut it open");
-}
 
 /// A third (quarter) of the area of each face at every vertex.
 Eigen::VectorXd vertex_areas(const Surface& source) {
@@ -57,33 +41,6 @@ Eigen::VectorXd vertex_areas(const Surface& source) {
         for (const int v : stencil) areas[v] += operators.weights[s] / static_cast<double>(stencil.size());
     }
     return areas;
-}
-
-/// Corners of the faces, triangles that are flatter than kLeastHeight raised to it: what is conformal on a needle
-/// decides about nothing.
-Positions raised_corners(const Surface& source) {
-    Positions corners(source.mesh.faces.corner_count(), 3);
-    const Positions own = source.metric ? *source.metric : corner_positions(source.mesh);
-    for (int f = 0; f < source.mesh.face_count(); ++f) {
-        const int first = source.mesh.faces.first_corner(f), degree = source.mesh.faces.degree(f);
-        for (int i = 0; i < degree; ++i) corners.row(first + i) = corner_point(own, first + i);
-        if (degree != 3) continue;
-        // The longest side lies along the real axis, the apex above it.
-        int base = 0;
-        double longest = 0;
-        for (int i = 0; i < 3; ++i) {
-            const double length = (corners.row(first + (i + 1) % 3) - corners.row(first + i)).norm();
-            if (length > longest) longest = length, base = i;
-        }
-        const Eigen::Vector3d a = corners.row(first + base), b = corners.row(first + (base + 1) % 3);
-        const Eigen::Vector3d c = corners.row(first + (base + 2) % 3);
-        const Eigen::Vector3d along = (b - a) / longest, across = (c - a) - (c - a).dot(along) * along;
-        const double height = across.norm(), least = kLeastHeight * longest;
-        if (height >= least) continue;
-        const Eigen::Vector3d up = height > 0 ? Eigen::Vector3d(across / height) : TangentFrame(along).first;
-        corners.row(first + (base + 2) % 3) = c + (least - height) * up;
-    }
-    return corners;
 }
 
 class Mapping {
@@ -377,6 +334,22 @@ void SphereMapOptions::validate() const {
     if (!(tolerance > 0) || !std::isfinite(tolerance))
         throw Error(Cause::bad_option, "the tolerance of the sphere map is not positive", "1e-10 is usual");
     if (max_iterations < 1) throw Error(Cause::bad_option, "the sphere map is allowed no iterations", "200 is usual");
+}
+
+void require_sphere(const Surface& source) {
+    const Topology& shape = source.topology;
+    if (shape.components != 1)
+        throw Error(Cause::bad_mesh, "the surface has " + std::to_string(shape.components) + " components",
+                    "map them to spheres one at a time");
+    if (!shape.boundary_loops.empty())
+        throw Error(Cause::bad_mesh,
+                    "the surface is open, with " + std::to_string(shape.boundary_loops.size()) +
+                        " boundary loops, and only a closed one goes to the sphere",
+                    "fill its holes, or map it to a disk", {Things::vertices, shape.boundary_loops[0]});
+    if (shape.genus != 0)
+        throw Error(Cause::bad_mesh,
+                    "the surface has genus " + std::to_string(shape.genus) + " and the sphere has none",
+                    "remove its handles, or cut it open");
 }
 
 SphereMap sphere_map(const Surface& source, const SphereMapOptions& options) {

@@ -66,6 +66,9 @@ struct SphereMap {
     Warnings warnings;
 };
 
+/// @throw Error bad_mesh unless the surface is one component, closed and of genus 0
+void require_sphere(const Surface& surface);
+
 /// The conformal map of a closed surface of genus 0 to the round sphere, in the sense of discrete conformal
 /// equivalence: scale factors at the vertices make it a convex polyhedron inscribed in the sphere, found by Newton's
 /// method on a convex energy with one vertex at infinity, while intrinsic edge flips keep the scaled metric Delaunay.

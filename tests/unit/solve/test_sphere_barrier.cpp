@@ -85,5 +85,25 @@ TEST(SphereBarrier, ReachesAWantedCoefficientWithPins) {
     EXPECT_EQ(points.row(5), wanted.row(5));
 }
 
+TEST(SphereBarrier, TheChangeOfTheCoefficientIsItsDerivative) {
+    const Surface surface(icosahedral_sphere(2));
+    const Positions points = squashed(surface.mesh.positions, 0.7);
+    Positions motion = Positions::Zero(points.rows(), 3);
+    for (Eigen::Index v = 0; v < points.rows(); ++v) {
+        const Eigen::RowVector3d p = points.row(v), way(std::sin(3 * p.y()), p.z(), p.x() * p.x());
+        motion.row(v) = way - way.dot(p) * p;
+    }
+    const auto coefficient = [&](double time) {
+        Positions moved = points + time * motion;
+        moved.rowwise().normalize();
+        return beltrami_coefficient(surface.operators, moved, moved);
+    };
+    constexpr double h = 1e-5;
+    const Eigen::VectorXcd mu = coefficient(0), slope = (coefficient(h) - coefficient(-h)) / (2 * h),
+                           change = coefficient_change(surface.operators, points, motion);
+    for (Eigen::Index s = 0; s < mu.size(); ++s)
+        EXPECT_LT(std::abs((1 - std::norm(mu[s])) * change[s] - slope[s]), 1e-7);
+}
+
 }  // namespace
 }  // namespace beltrami

@@ -1,0 +1,164 @@
+#include <fmt/format.h>
+
+#include <beltrami/base/error.h>
+#include <beltrami/registration/nearest_places.h>
+
+#include "command.h"
+#include "landmark_options.h"
+#include "mesh_input.h"
+#include "output.h"
+#include "page.h"
+#include "place_file.h"
+#include "start_map_option.h"
+#include "words.h"
+
+namespace beltrami::cli {
+
+namespace {
+
+class Register final : public Command {
+  public:
+    explicit Register(CLI::App& parent) {
+        CLI::App* app = parent.add_subcommand(
+            "register",
+            "carry a surface onto another one by the map of least dilatation that takes landmarks to their places");
+        app->add_option("SOURCE", source_, "OBJ, PLY, OFF or STL; one component of genus 0, closed or with a boundary")
+            ->required();
+        app->add_option("TARGET", target_, "likewise, with as many boundary loops")->required();
+        app->add_option("-o,--output", output_,
+                        "SOURCE's vertices at their places on TARGET, in PLY with per face mu_re, mu_im, abs_mu, K of "
+                        "the map")
+            ->required()
+            ->type_name("OUT");
+        landmarks_.add_to(*app);
+        app->add_option("--start-map", start_,
+                        "begin with the map that takes SOURCE's vertices to the points of TARGET nearest to this "
+                        "mesh's: SOURCE's vertices and faces in their order, as OUT has them")
+            ->type_name("FILE");
+        app->add_option("--places", places_,
+                        "write the place of every vertex on TARGET: lines `face b0 b1 b2`, of quads four weights")
+            ->type_name("FILE");
+        app->add_option("--max-iterations", max_iterations_, "of k and phi")->check(CLI::PositiveNumber);
+        app->add_option("--outer", outer_, "of surfaces with a boundary: SOURCE's loop that goes to TARGET's outer one")
+            ->check(CLI::NonNegativeNumber)
+            ->capture_default_str()
+            ->type_name("h");
+        app->add_option("--target-outer", target_outer_, "that loop of TARGET")
+            ->check(CLI::NonNegativeNumber)
+            ->capture_default_str()
+            ->type_name("h");
+        options_.add_to(*app);
+        common_.add_to(*app);
+        app->footer(kExitCodes);
+    }
+
+    int run() override {
+        require_mesh_format(output_);
+        std::vector<NamedFile> inputs = landmarks_.inputs();
+        inputs.insert(inputs.end(), {{"SOURCE", source_}, {"TARGET", target_}, {"--start-map", start_}});
+        common_.check_files(inputs, {{"-o", output_}, {"--places", places_}});
+        record_.command = "register";
+        MeshInput source_input = load("SOURCE", source_), target_input = load("TARGET", target_);
+        const std::vector<SurfaceLandmark> landmarks =
+            landmarks_.landmarks(source_input, target_input, record_.warnings);
+        RegistrationOptions options;
+        options.waypoints = landmarks_.waypoints(source_input, target_input);
+        if (max_iterations_) options.map.max_iterations = *max_iterations_;
+        if (!start_.empty()) options.start = start(source_input.mesh, target_input);
+        const Surface source = surface("SOURCE", source_input), target = surface("TARGET", target_input);
+        record_.source = source_record(source);
+        if (is_closed(source) != is_closed(target))
+            throw Error(Cause::bad_mesh, "one of SOURCE and TARGET is closed and the other has a boundary",
+                        "fill the holes of the one, or cut the other open");
+        Progress progress(!common_.quiet);
+        options.map.progress = [&](int iteration, double k) {
+            progress.show(iteration, k);
+            return true;
+        };
+        if (is_closed(source))
+            conclude(register_spheres(source, target, landmarks, options), source_input, target_input, landmarks);
+        else
+            conclude(open(source, target, landmarks, options), source_input, target_input, landmarks);
+        return 0;
+    }
+
+    std::string hint(const Error& error) const override {
+        const std::string of_source = options_.hint(error, source_);
+        return of_source.empty() ? options_.hint(error, target_) : of_source;
+    }
+
+  private:
+    static bool is_closed(const Surface& surface) { return surface.topology.boundary_loops.empty(); }
+
+    OpenRegistration open(const Surface& source, const Surface& target, const std::vector<SurfaceLandmark>& landmarks,
+                          const RegistrationOptions& given) const {
+        if (!given.start.empty() || !given.waypoints.empty())
+            throw Error(Cause::bad_option, "--start-map and --waypoints are for closed surfaces",
+                        "the class of surfaces with a boundary is that of their circle domains");
+        OpenRegistrationOptions options;
+        options.map.progress = given.map.progress;
+        if (max_iterations_) options.map.max_iterations = *max_iterations_;
+        options.outer_loop = outer_;
+        options.target_outer_loop = target_outer_;
+        return register_open(source, target, landmarks, options);
+    }
+
+    template <class Found>
+    void conclude(const Found& found, const MeshInput& source, const MeshInput& target,
+                  const std::vector<SurfaceLandmark>& landmarks) {
+        append(record_.warnings, found.warnings);
+        record_.map = map_record(found.map);
+        record_.solve = solve_record(found.map, seconds() - begun_);
+        record_.registration = registration_record(found, target_, landmarks.size());
+        if (record_.registration->largest_distance) *record_.registration->largest_distance *= target.unit;
+        write_at(output_, source.mesh.faces, target.unit * found.positions, found.map.distortion, source.attributes);
+        if (!places_.empty()) write_places(places_, target.mesh, found.places);
+        write_page(common_.report, source.mesh, {{"registration", found.positions, found.map.distortion.face_abs_mu}},
+                   {}, record_, source_);
+        finish(record_, common_, "registration", {output_, places_, common_.json, common_.report});
+    }
+
+    MeshInput load(const char* name, const std::string& path) {
+        Warnings warnings;
+        MeshInput input = options_.load(path, warnings);
+        cut_folded_quads(input, warnings);
+        for (Warning& warning : warnings) record_.warnings.push_back(prefixed(name, std::move(warning)));
+        return input;
+    }
+
+    Surface surface(const char* name, const MeshInput& input) {
+        try {
+            Surface result(input.mesh);
+            Warnings findings;
+            add_findings(result.findings, findings);
+            for (Warning& finding : findings) record_.warnings.push_back(prefixed(name, std::move(finding)));
+            return result;
+        } catch (const Error& error) {
+            throw Error(error.cause(), std::string(name) + ": " + error.what(), {}, error.where());
+        }
+    }
+
+    std::vector<MeshPoint> start(const Mesh& source, const MeshInput& target) {
+        const Mesh mesh = load_of_same_faces("--start-map", start_, source, record_.warnings);
+        Positions points(mesh.vertex_count(), 3);
+        for (int v = 0; v < mesh.vertex_count(); ++v) points.row(v) = mesh.point(v) / target.unit;
+        std::vector<MeshPoint> places;
+        for (const NearestPlace& nearest : nearest_places(target.mesh, points)) places.push_back(nearest.place);
+        return places;
+    }
+
+    std::string source_, target_, output_, start_, places_;
+    std::optional<int> max_iterations_;
+    int outer_ = 0, target_outer_ = 0;
+    double begun_ = seconds();
+    LandmarkOptions landmarks_;
+    MeshInputOptions options_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_register(CLI::App& parent) {
+    return std::make_unique<Register>(parent);
+}
+
+}  // namespace beltrami::cli

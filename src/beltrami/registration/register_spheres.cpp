@@ -1,0 +1,104 @@
+#include <beltrami/registration/register_spheres.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <Eigen/Geometry>
+
+#include <beltrami/base/error.h>
+#include <beltrami/charts/chart_places.h>
+#include <beltrami/registration/sphere_locator.h>
+#include <beltrami/teichmuller/sphere_problem.h>
+
+namespace beltrami {
+
+namespace {
+
+constexpr int kMostSteps = 1000;  // of a way
+
+template <class Call>
+auto of_surface(const char* name, Call&& call) {
+    try {
+        return call();
+    } catch (const Error& error) {
+        throw Error(error.cause(), std::string("the ") + name + ": " + error.what(), {}, error.where());
+    }
+}
+
+Positions on_sphere(const Positions& sphere, std::span<const MeshPoint> places) {
+    Positions points(static_cast<Eigen::Index>(places.size()), 3);
+    for (std::size_t i = 0; i < places.size(); ++i)
+        points.row(static_cast<Eigen::Index>(i)) = sphere_place(sphere, places[i]);
+    return points;
+}
+
+/// The landmarks at every step; NaN where a step names none.
+std::vector<Positions> stops(std::span<const SurfaceWaypoint> waypoints, std::span<const SurfaceLandmark> landmarks,
+                             const Positions& sphere) {
+    std::vector<Positions> result;
+    for (const SurfaceWaypoint& waypoint : waypoints) {
+        const auto landmark = std::find_if(landmarks.begin(), landmarks.end(),
+                                           [&](const SurfaceLandmark& l) { return l.vertex == waypoint.vertex; });
+        if (waypoint.step < 1 || waypoint.step > kMostSteps || landmark == landmarks.end())
+            throw Error(Cause::bad_option,
+                        "a waypoint of vertex " + std::to_string(waypoint.vertex) + " at step " +
+                            std::to_string(waypoint.step) + " is impossible",
+                        "waypoints belong to landmarks and to steps from 1 to " + std::to_string(kMostSteps));
+        while (static_cast<int>(result.size()) < waypoint.step)
+            result.emplace_back(Positions::Constant(static_cast<Eigen::Index>(landmarks.size()), 3,
+                                                    std::numeric_limits<double>::quiet_NaN()));
+        result[waypoint.step - 1].row(landmark - landmarks.begin()) = sphere_place(sphere, waypoint.place);
+    }
+    return result;
+}
+
+/// k of the map back, which takes every vertex of the target to its place in the source's sphere.
+double k_of_inverse(const Surface& source, const Surface& target, std::span<const SurfaceLandmark> landmarks,
+                    const SphereRegistration& found, int cluster_count) {
+    const SphereLocator locator(source.mesh.faces, found.map.positions);
+    Positions back = on_sphere(found.source_sphere.positions, locator.locate(found.target_sphere.positions));
+    std::vector<int> vertices;
+    for (const SurfaceLandmark& landmark : landmarks) {
+        const MeshPoint& place = found.places[landmark.vertex];
+        vertices.push_back(nearest_vertex(place));
+        if (*std::max_element(place.barycentric.begin(), place.barycentric.end()) == 1)
+            back.row(vertices.back()) = found.source_sphere.positions.row(landmark.vertex);
+    }
+    SphereProblem problem(target, found.target_sphere.positions, vertices, cluster_count);
+    return problem.coefficient_step(beltrami_coefficient(target.operators, back, back)).k;
+}
+
+}  // namespace
+
+SphereRegistration register_spheres(const Surface& source, const Surface& target,
+                                    std::span<const SurfaceLandmark> landmarks, const RegistrationOptions& options) {
+    of_surface("source", [&] { require_sphere(source); });
+    of_surface("target", [&] { require_sphere(target); });
+    SphereRegistration result;
+    result.source_sphere = of_surface("source", [&] { return sphere_map(source, options.sphere); });
+    result.target_sphere = of_surface("target", [&] { return sphere_map(target, options.sphere); });
+    const Positions& sphere = result.target_sphere.positions;
+    std::vector<SphereLandmark> images;
+    for (const SurfaceLandmark& landmark : landmarks)
+        images.push_back({landmark.vertex, sphere_place(sphere, landmark.place),
+                          landmark.weight * squared_scale(target, sphere, landmark.place)});
+    ExtremalSphereOptions how = options.map;
+    if (!options.start.empty()) how.start = on_sphere(sphere, options.start);
+    how.waypoints = stops(options.waypoints, landmarks, sphere);
+    result.map = extremal_sphere_map(source, result.source_sphere.positions, images, how);
+
+    result.places = SphereLocator(target.mesh.faces, sphere).locate(result.map.positions);
+    meet_landmarks(landmarks, result);
+    result.measure(source, target, result.map.distortion.mu);
+    measure_landmarks(target.mesh, landmarks, result);
+    if (options.check_inverse && landmarks.size() > 3)
+        result.inverse_k = k_of_inverse(source, target, landmarks, result, how.cluster_count);
+    for (const auto& [name, warnings] :
+         {std::pair{"source", &result.source_sphere.warnings}, std::pair{"target", &result.target_sphere.warnings}})
+        for (const Warning& warning : *warnings) result.warnings.push_back(prefixed(name, warning));
+    append(result.warnings, result.map.warnings);
+    return result;
+}
+
+}  // namespace beltrami

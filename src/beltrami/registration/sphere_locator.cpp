@@ -1,0 +1,107 @@
+#include <beltrami/registration/sphere_locator.h>
+
+#include <algorithm>
+#include <unordered_map>
+
+#include <Eigen/Geometry>
+
+#include <beltrami/base/parallel.h>
+#include <beltrami/mesh/quad_split.h>
+
+namespace beltrami {
+
+namespace {
+
+constexpr int kMostSteps = 500;
+constexpr double kOutside = -1e-12;
+
+std::vector<std::array<int, 3>> neighbours(const std::vector<std::array<int, 3>>& triangles) {
+    std::unordered_map<std::int64_t, int> side;  // directed edge -> triangle
+    const auto key = [](int a, int b) { return (static_cast<std::int64_t>(a) << 32) | static_cast<std::uint32_t>(b); };
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+        for (int i = 0; i < 3; ++i) side[key(triangles[t][i], triangles[t][(i + 1) % 3])] = static_cast<int>(t);
+    std::vector<std::array<int, 3>> across(triangles.size(), {-1, -1, -1});
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+        for (int i = 0; i < 3; ++i)
+            if (const auto it = side.find(key(triangles[t][(i + 2) % 3], triangles[t][(i + 1) % 3])); it != side.end())
+                across[t][i] = it->second;
+    return across;
+}
+
+}  // namespace
+
+std::vector<std::array<int, 3>> as_triangles(const FaceList& faces, const Positions& points,
+                                             std::vector<int>& face_of_triangle) {
+    std::vector<std::array<int, 3>> triangles;
+    face_of_triangle.clear();
+    for (int f = 0; f < faces.size(); ++f) {
+        const auto v = faces[f];
+        if (v.size() == 3) {
+            triangles.push_back({v[0], v[1], v[2]});
+            face_of_triangle.push_back(f);
+            continue;
+        }
+        std::array<Eigen::Vector3d, 4> corners;
+        for (int i = 0; i < 4; ++i) corners[i] = points.row(v[i]);
+        for (const auto& c : split_quad(corners)) {
+            triangles.push_back({v[c[0]], v[c[1]], v[c[2]]});
+            face_of_triangle.push_back(f);
+        }
+    }
+    return triangles;
+}
+
+SphereLocator::SphereLocator(const FaceList& faces, const Positions& points)
+    : points_(points),
+      triangles_(as_triangles(faces, points, face_of_triangle_)),
+      across_(neighbours(triangles_)),
+      nearest_(points, triangles_) {}
+
+std::array<double, 3> SphereLocator::weights(int triangle, const Eigen::Vector3d& point) const {
+    std::array<Eigen::Vector3d, 3> from;  // differences keep the digits of what is near
+    for (int i = 0; i < 3; ++i) from[i] = points_.row(triangles_[triangle][i]).transpose() - point;
+    std::array<double, 3> result;
+    double sum = 0;
+    for (int i = 0; i < 3; ++i) sum += std::abs(result[i] = from[(i + 1) % 3].cross(from[(i + 2) % 3]).dot(point));
+    for (double& weight : result) weight = sum > 0 ? weight / sum : 1.0 / 3;
+    return result;
+}
+
+/// Across the edge beyond which the point lies farthest, until it is inside.
+int SphereLocator::walk(int triangle, const Eigen::Vector3d& point) const {
+    int best = triangle;
+    double most = -2;
+    for (int step = 0; step < kMostSteps && triangle >= 0; ++step) {
+        const std::array<double, 3> w = weights(triangle, point);
+        const int lowest = static_cast<int>(std::min_element(w.begin(), w.end()) - w.begin());
+        if (w[lowest] > most) most = w[lowest], best = triangle;
+        if (w[lowest] >= kOutside) return triangle;
+        triangle = across_[triangle][lowest];
+    }
+    return best;
+}
+
+MeshPoint SphereLocator::locate(const Eigen::Vector3d& point) const {
+    const int triangle = walk(nearest_.nearest(point).triangle, point);
+    std::array<double, 3> w = weights(triangle, point);
+    double sum = 0;
+    for (double& weight : w) sum += weight = std::max(weight, 0.0);
+    for (double& weight : w) weight /= sum;
+    return {face_of_triangle_[triangle], triangles_[triangle], w};
+}
+
+std::vector<MeshPoint> SphereLocator::locate(const Positions& points) const {
+    std::vector<MeshPoint> places(static_cast<std::size_t>(points.rows()));
+    parallel_for(0, static_cast<int>(points.rows()), [&](int first, int last) {
+        for (int i = first; i < last; ++i) places[i] = locate(Eigen::Vector3d(points.row(i)));
+    });
+    return places;
+}
+
+Eigen::Vector3d sphere_place(const Positions& points, const MeshPoint& place) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (int i = 0; i < 3; ++i) sum += place.barycentric[i] * points.row(place.vertices[i]).transpose();
+    return sum.normalized();
+}
+
+}  // namespace beltrami

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include <beltrami/locate/planar_locator.h>
+#include <beltrami/locate/surface_locator.h>
+
+namespace beltrami {
+
+/// Finds the geodesic triangles of a mesh on the unit sphere that contain given points; quads are two triangles
+/// (quad_split.h). Barycentric coordinates are gnomonic, so that a point lies on the ray through their mean of the
+/// corners.
+class SphereLocator {
+  public:
+    /// @param faces  triangles and quads that cover the sphere once
+    /// @param points #V×3 unit vectors
+    SphereLocator(const FaceList& faces, const Positions& points);
+
+    /// @param point unit vector
+    MeshPoint locate(const Eigen::Vector3d& point) const;
+    /// Of many points (one row each), on all threads.
+    std::vector<MeshPoint> locate(const Positions& points) const;
+
+  private:
+    std::array<double, 3> weights(int triangle, const Eigen::Vector3d& point) const;
+    int walk(int triangle, const Eigen::Vector3d& point) const;
+
+    Positions points_;
+    std::vector<int> face_of_triangle_;
+    std::vector<std::array<int, 3>> triangles_;
+    std::vector<std::array<int, 3>> across_;  ///< the triangle beyond the edge opposite to each corner
+    SurfaceLocator nearest_;
+};
+
+/// The point of the sphere at a place of a mesh there: the mean of the corners, back on the sphere.
+Eigen::Vector3d sphere_place(const Positions& points, const MeshPoint& place);
+
+/// Faces as triangles along the diagonals of quad_split.h, with the face of each.
+/// @param points #V×3
+std::vector<std::array<int, 3>> as_triangles(const FaceList& faces, const Positions& points,
+                                             std::vector<int>& face_of_triangle);
+
+}  // namespace beltrami
