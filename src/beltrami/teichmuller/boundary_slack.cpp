@@ -32,6 +32,8 @@ constexpr int kInteriorSteps = 60;
 constexpr double kInteriorTolerance = 1e-12;
 /// The matrix is made definite by this part of its mean diagonal: a shift of all points changes no u.
 constexpr double kShift = 1e-10;
+/// Edges of a block.
+constexpr int kBlock = 4;
 
 /// The target as a curve, and the parameters of the images on it, increasing.
 struct Track {
@@ -245,34 +247,61 @@ Eigen::VectorXd rim_angles(const std::vector<int>& rim, const Chart& chart) {
     return angles * (kTwoPi / angles.sum());
 }
 
+/// The rim in the chart and along the target.
+struct Rim {
+    Track track;
+    double length;           ///< of the target
+    Eigen::VectorXd angles;  ///< of its edges in the chart
+
+    Rim(const std::vector<int>& loop, const Chart& chart, const Eigen::VectorXcd& values)
+        : track(track_of(images_of(loop, values))), length(track.curve.length()), angles(rim_angles(loop, chart)) {}
+
+    static std::vector<Complex> images_of(const std::vector<int>& loop, const Eigen::VectorXcd& values) {
+        std::vector<Complex> images;
+        images.reserve(loop.size());
+        for (const int v : loop) images.push_back(values[v]);
+        return images;
+    }
+    int size() const { return static_cast<int>(angles.size()); }
+    /// Lengths of edges along the target, vertices at the places t.
+    /// @throw Error bad_boundary if they do not run forward
+    Eigen::VectorXd increments(const Eigen::VectorXd& t) const {
+        const int n = size();
+        Eigen::VectorXd result(n);
+        for (int i = 0; i < n; ++i) result[i] = t[(i + 1) % n] - t[i] + (i == n - 1 ? length : 0.0);
+        if (!(result.minCoeff() > 0))
+            throw Error(Cause::bad_boundary, "the boundary values do not run forward along their target",
+                        "use no slack, or give boundary values that do");
+        return result;
+    }
+};
+
+Eigen::VectorXd speeds(const Eigen::VectorXd& increments, const Eigen::VectorXd& angles) {
+    return increments.cwiseQuotient(angles).array().log();
+}
+
+/// Sums of kBlock neighbours; the last block has the rest too.
+Eigen::VectorXd in_blocks(const Eigen::VectorXd& of_edges) {
+    const Eigen::Index blocks = of_edges.size() / kBlock;
+    Eigen::VectorXd result(blocks);
+    for (Eigen::Index b = 0; b < blocks; ++b) result[b] = of_edges.segment(b * kBlock, kBlock).sum();
+    result[blocks - 1] += of_edges.tail(of_edges.size() - blocks * kBlock).sum();
+    return result;
+}
+
 }  // namespace
 
 SlackBoundary slacken(const Surface& source, const Chart& chart, const BoundaryCondition& boundary, double slack) {
-    const std::vector<int>& rim = source.topology.boundary_loops[0];
-    const auto n = static_cast<int>(rim.size());
+    const std::vector<int>& loop = source.topology.boundary_loops[0];
     const Eigen::VectorXcd values = prescribed_values(boundary, source);
-    std::vector<Complex> images;
-    for (const int v : rim) images.push_back(values[v]);
-    const Track track = track_of(images);
-    const double length = track.curve.length();
-    const Eigen::VectorXd angles = rim_angles(rim, chart);
-    const PairWeights weights(angles);
-
-    const auto increments = [&](const Eigen::VectorXd& t) {
-        Eigen::VectorXd result(n);
-        for (int i = 0; i < n; ++i) result[i] = t[(i + 1) % n] - t[i] + (i == n - 1 ? length : 0.0);
-        return result;
-    };
-    const auto speeds = [&](const Eigen::VectorXd& increment) -> Eigen::VectorXd {
-        return increment.cwiseQuotient(angles).array().log();
-    };
+    const Rim rim(loop, chart, values);
+    const Track& track = rim.track;
+    const int n = rim.size();
+    const PairWeights weights(rim.angles);
     const auto beside = [&](const Eigen::VectorXd& of_edges, int i) {
         return std::array{of_edges[(i + n - 1) % n], of_edges[i]};
     };
-    Eigen::VectorXd t = track.place, increment = increments(t), edge(n);
-    if (!(increment.minCoeff() > 0))
-        throw Error(Cause::bad_boundary, "the boundary values do not run forward along their target",
-                    "use no slack, or give boundary values that do");
+    Eigen::VectorXd t = track.place, increment = rim.increments(t), edge(n);
     for (int i = 0; i < n; ++i) edge[i] = 0.5 * (beside(increment, i)[0] + beside(increment, i)[1]);
     Eigen::VectorXd low(n), high(n);
     for (int i = 0; i < n; ++i) {
@@ -281,7 +310,7 @@ SlackBoundary slacken(const Surface& source, const Chart& chart, const BoundaryC
         high[i] = t[i] + room;
     }
 
-    SlackBoundary result{boundary, energy(weights, speeds(increment)), 0, 0};
+    SlackBoundary result{boundary, energy(weights, speeds(increment, rim.angles)), 0, 0};
     SlackForm form(weights);
     for (int step = 0; step < kSteps; ++step) {
         form.set(increment);
@@ -292,24 +321,33 @@ SlackBoundary slacken(const Surface& source, const Chart& chart, const BoundaryC
             from[i] = std::min(std::max(low[i] - t[i], -room), 0.0) - 1e-12 * edge[i];
             to[i] = std::max(std::min(high[i] - t[i], room), 0.0) + 1e-12 * edge[i];
         }
-        const Eigen::VectorXd move = minimum_in_box(form, form.pull(speeds(increment)), from, to);
+        const Eigen::VectorXd move = minimum_in_box(form, form.pull(speeds(increment, rim.angles)), from, to);
         const double moved = move.cwiseQuotient(edge).cwiseAbs().maxCoeff();
         t += move;
-        increment = increments(t);
+        increment = rim.increments(t);
         if (moved < kSettled) break;
     }
-    result.energy_after = energy(weights, speeds(increment));
+    result.energy_after = energy(weights, speeds(increment, rim.angles));
     if (!(result.energy_after < result.energy_before)) {
         result.energy_after = result.energy_before;
         return result;
     }
     result.largest_move = (t - track.place).cwiseQuotient(edge).cwiseAbs().maxCoeff();
     std::vector<int> position(values.size(), -1);
-    for (int i = 0; i < n; ++i) position[rim[i]] = i;
+    for (int i = 0; i < n; ++i) position[loop[i]] = i;
     for (std::size_t i = 0; i < boundary.vertices.size(); ++i)
         if (const int at = position[boundary.vertices[i]]; at >= 0 && !track.held[at])
             result.boundary.images[i] = track.curve.point(t[at]);
     return result;
+}
+
+double energy_of_blocks(const Surface& source, const Chart& chart, const BoundaryCondition& boundary) {
+    const Rim rim(source.topology.boundary_loops[0], chart, prescribed_values(boundary, source));
+    const Eigen::VectorXd increments = rim.increments(rim.track.place);
+    const double whole = energy(PairWeights(rim.angles), speeds(increments, rim.angles));
+    if (rim.size() < kBlock || !(whole > 0)) return 1;
+    const Eigen::VectorXd angles = in_blocks(rim.angles);
+    return energy(PairWeights(angles), speeds(in_blocks(increments), angles)) / whole;
 }
 
 }  // namespace beltrami

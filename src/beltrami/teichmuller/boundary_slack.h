@@ -31,4 +31,10 @@ struct SlackBoundary {
 /// @pre one boundary loop, all of it prescribed
 SlackBoundary slacken(const Surface& source, const Chart& chart, const BoundaryCondition& boundary, double slack);
 
+/// E of the outline seen in blocks of four edges, as part of E: near 1 where boundary values vary slowly against the
+/// edges, near 0 where most of E is what single edges say. No system is solved for it.
+/// @throw Error as slacken
+/// @pre as slacken
+double energy_of_blocks(const Surface& source, const Chart& chart, const BoundaryCondition& boundary);
+
 }  // namespace beltrami

@@ -64,6 +64,9 @@ TEST(BoundarySlack, PlantedNoiseIsTakenOut) {
         disk.values([&](double t, int) { return on_circle(smooth(t + edge * noise(random))); });
     const double before = slacken(disk.source, disk.chart, clean, 0.01).energy_before;
     const SlackBoundary result = slacken(disk.source, disk.chart, noisy, 0.25);
+    EXPECT_GT(energy_of_blocks(disk.source, disk.chart, clean), 0.95);
+    EXPECT_LT(energy_of_blocks(disk.source, disk.chart, noisy), 0.3);
+    EXPECT_GT(energy_of_blocks(disk.source, disk.chart, result.boundary), 0.9);
     EXPECT_GT(result.energy_before, 5 * before);
     EXPECT_LT(result.energy_after, 1.05 * before);
     EXPECT_LE(result.largest_move, 0.25 * (1 + 1e-6));
