@@ -135,7 +135,8 @@ class Transfer final : public Command {
     void write_rows(const Positions& values) const {
         std::string text;
         for (Eigen::Index i = 0; i < values.rows(); ++i) {
-            for (Eigen::Index j = 0; j < values.cols(); ++j) text += fmt::format("{}{}", j > 0 ? " " : "", values(i, j));
+            for (Eigen::Index j = 0; j < values.cols(); ++j)
+                text += fmt::format("{}{}", j > 0 ? " " : "", values(i, j));
             text += "\n";
         }
         write_atomically(output_, text);
