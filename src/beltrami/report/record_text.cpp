@@ -90,15 +90,14 @@ std::string lines_of(const PeriodsRecord& periods) {
 std::string line_of(const TorusRecord& torus) {
     return fmt::format(
         "a torus: tau = {:.8f}{:+.8f}i (error of this polyhedron's at most {:.1e}); a and b have the lengths {:.6f} "
-        "and "
-        "{:.6f} on the flat torus of area 1\n",
+        "and {:.6f} on the flat torus of area 1\n",
         torus.tau.real() + 0.0, torus.tau.imag(), torus.tau_error, torus.lengths[0], torus.lengths[1]);
 }
 
 /// How the map sits in space.
 std::string lines_of(const RegistrationRecord& registration) {
     std::string text;
-    if (const auto& sphere = registration.sphere)
+    if (const auto& sphere = registration.sphere; sphere && sphere->dimension > 0)
         text += fmt::format("weighted by |phi|, |mu| is {:.4f} with a deviation of {:.4f}\n", sphere->weighted_mean,
                             sphere->weighted_deviation);
     text += fmt::format("straight faces in space: {} flipped, {} where the mesh does not resolve the map\n",

@@ -73,15 +73,16 @@ double require_apart(const Landmarks& landmarks, const Positions& points, const 
             least = std::min(least, distance);
             if (distance >= kLeastSeparation) continue;
             const int a = landmarks.vertices[j], b = landmarks.vertices[i];
-            throw Error(Cause::bad_boundary,
-                        "landmarks " + std::to_string(a) + " and " + std::to_string(b) +
-                            (distance == 0 ? std::string(" coincide")
-                                           : " are " + short_number(distance) + " apart on the conformal sphere") +
-                            " of the " + where,
-                        distance == 0 ? "leave one of them out"
-                                      : "landmarks inside one thin limb, closer than 1e-3, cannot be told apart: leave "
-                                        "all but one out, or move them to where the limb begins",
-                        {Things::vertices, {a, b}});
+            throw Error(
+                Cause::bad_boundary,
+                "landmarks " + std::to_string(a) + " and " + std::to_string(b) +
+                    (distance == 0 ? std::string(" coincide on the ")
+                                   : " are " + short_number(distance) + " apart on the conformal sphere of the ") +
+                    where,
+                distance == 0 ? "leave one of them out"
+                              : "landmarks inside one thin limb, closer than 1e-3, cannot be told apart: leave "
+                                "all but one out, or move them to where the limb begins",
+                {Things::vertices, {a, b}});
         }
     return least;
 }
