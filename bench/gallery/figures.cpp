@@ -71,9 +71,9 @@ const Page& sliding() {
 const Page& sphere() {
     static const Page page{"gallery-sphere.md",
                            "# Gallery: the sphere\n\n"
-                           "Conformal maps of closed surfaces of genus 0, made by `./run gallery`. Seconds on a busy "
+                           "Maps of closed surfaces of genus 0, made by `./run gallery`. Seconds on a busy "
                            "machine.\n\n",
-                           {{"spheres", spheres}}};
+                           {{"spheres", spheres}, {"registrations", registrations}}};
     return page;
 }
 

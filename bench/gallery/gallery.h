@@ -202,7 +202,8 @@ Figure sliding_classes(Output& output);         ///< holes that change places; r
 Figure sliding_distance(Output& output);        ///< distances of shapes and their clusters
 Figure sliding_distance_scans(Output& output);  ///< of scans, if the folder BELTRAMI_MESHES has them
 
-Figure spheres(Output& output);  ///< closed surfaces, scans if the folder BELTRAMI_MESHES has them
-Figure tori(Output& output);     ///< flat metrics of tori and the maps between them
+Figure spheres(Output& output);        ///< closed surfaces, scans if the folder BELTRAMI_MESHES has them
+Figure registrations(Output& output);  ///< closed surfaces carried onto each other with landmarks
+Figure tori(Output& output);           ///< flat metrics of tori and the maps between them
 
 }  // namespace beltrami::gallery
