@@ -45,6 +45,88 @@ Eigen::VectorXd pack(const Eigen::VectorXcd& direction, double k) {
     return x;
 }
 
+/// What tells that further steps would bring nothing.
+class Settling {
+  public:
+    explicit Settling(const HamiltonIteration::Options& options) : options_(options) {}
+    /// In a larger space all begins anew.
+    void restart() {
+        least_change_ = 1;
+        since_least_ = quiet_ = 0;
+    }
+    /// Whether all has settled with a step, by which φ and k have changed.
+    bool after(const CoefficientStep::Result& step, double change, double k_change, bool preliminary) {
+        // Where k vanishes the direction of φ means nothing. Zeros of φ that wander across samples keep its direction
+        // from settling entirely.
+        if (change < 0.5 * least_change_) {
+            least_change_ = change;
+            since_least_ = 0;
+        } else {
+            ++since_least_;
+        }
+        // Where the data hardly tell two φ apart, φ wanders while k stays and the bound is as near as it will come.
+        quiet_ = change > kQuietAbove && k_change < kQuietChangeOfK ? quiet_ + 1 : 0;
+        if (preliminary) return false;
+        const double gap = bracket(step);
+        if (quiet_ >= options_.quiet_steps && gap < kQuietGap) return true;
+        if (gap > options_.tight && change < kLargeChange &&
+            std::max(change * change, k_change / step.k) < options_.within_bracket * gap)
+            return true;
+        if (!step.converged) return false;
+        const bool stalled =
+            least_change_ < kStalledBelow && since_least_ >= kStalledFor && k_change < kStalledChangeOfK;
+        return stalled ||
+               (k_change < options_.k_tolerance && (change < options_.tolerance || step.k < options_.k_tolerance));
+    }
+
+  private:
+    const HamiltonIteration::Options& options_;
+    double least_change_ = 1;
+    int since_least_ = 0, quiet_ = 0;
+};
+
+/// How φ and k of the next f-step follow from a c-step: they are its own, or led further by acceleration.
+class Stride {
+  public:
+    explicit Stride(int window) : window_(window), anderson_(window) {}
+    /// In a larger space.
+    void restart() {
+        anderson_.reset();
+        relaxation_ = 1;
+    }
+    void take(const CoefficientStep::Result& step, double change, HamiltonState& state) {
+        // Acceleration can lead astray where the iteration is not smooth; a plain step then brings it back.
+        const bool astray = accelerated_ && change > last_change_;
+        if (astray) anderson_.reset();
+        // Two φ that call for each other in turn are brought together by going half the way.
+        if (change > kTurnsBack && change > 0.8 * last_change_)
+            relaxation_ = std::max(0.5 * relaxation_, kLeastRelaxation);
+        last_change_ = change;
+        accelerated_ = window_ > 0 && change < kAccelerateBelow && !astray;
+        if (accelerated_) {
+            const Eigen::VectorXd next = anderson_.next(pack(state.direction, state.k), pack(step.direction, step.k));
+            const Eigen::Index m = state.direction.size();
+            state.direction.real() = next.head(m);
+            state.direction.imag() = next.segment(m, m);
+            state.direction.normalize();
+            state.k = std::clamp(next[2 * m], 0.0, kLargest);
+        } else {
+            state.direction =
+                relaxation_ == 1
+                    ? step.direction
+                    : Eigen::VectorXcd(
+                          (state.direction + relaxation_ * (step.direction - state.direction)).normalized());
+            state.k = std::min(state.k + relaxation_ * (step.k - state.k), kLargest);
+        }
+    }
+
+  private:
+    int window_;
+    AndersonAcceleration anderson_;
+    double last_change_ = 1, relaxation_ = 1;
+    bool accelerated_ = false;
+};
+
 }  // namespace
 
 double bracket(const CoefficientStep::Result& step) {
@@ -95,11 +177,11 @@ bool HamiltonIteration::grow(HamiltonState& state, const Eigen::VectorXcd& mu) {
     return grown;
 }
 
-void HamiltonIteration::run(HamiltonState& state, std::unique_ptr<DifferentialSpace> smallest) {
+/// The state as it is given, or from nothing the c-step of the map as it stands.
+void HamiltonIteration::begin(HamiltonState& state, std::unique_ptr<DifferentialSpace> smallest) {
     iterations_ = 0;
     converged_ = false;
     history_.clear();
-    const bool from_elsewhere = state.space != nullptr;
     double largest = 0;
     if (!state.space) {
         state.space = std::move(smallest);
@@ -114,68 +196,60 @@ void HamiltonIteration::run(HamiltonState& state, std::unique_ptr<DifferentialSp
         coefficient_step_.set_space(*state.space);
     }
     history_.push_back({state.k, 1.0, state.space->size(), largest});
+}
 
-    AndersonAcceleration anderson(options_.anderson_window);
-    double change = 1, least_change = 1;
-    int since_least = 0, quiet = 0;
-    CoefficientStep::Result best;  // what is returned if nothing settles
-    std::any best_map;
-    CoefficientStep::Result fallback;  // what had settled in a smaller space
-    std::any fallback_map;
+/// f-step and c-step, each as precise as the last change asks for.
+/// @return μ of the map
+Eigen::VectorXcd HamiltonIteration::step_from(const HamiltonState& state, double last_change) {
+    const Eigen::VectorXcd& phi = coefficient_step_.values(state.direction);
+    const Eigen::VectorXcd nu = coefficient_step_.coefficient(state.k, phi);
+    map_step_.weigh(phi);
+    map_step_.solve(nu, kSolveBelowChange * std::min(last_change, kLargeChange));
+    ++iterations_;
+    Eigen::VectorXcd mu = beltrami_coefficient(map_step_.derivatives());
+    step_ = coefficient_step_.solve(mu, state.direction,
+                                    options_.step_below_change * std::min(last_change, kLargeChange), kNewtonSteps);
+    return mu;
+}
+
+void HamiltonIteration::go_back_to(Kept kept, const HamiltonState& state) {
+    map_step_.restore(kept.map);
+    step_ = std::move(kept.step);
+    step_.direction.conservativeResizeLike(Eigen::VectorXcd::Zero(state.space->size()));
+}
+
+void HamiltonIteration::run(HamiltonState& state, std::unique_ptr<DifferentialSpace> smallest) {
+    const bool from_elsewhere = state.space != nullptr;
+    begin(state, std::move(smallest));
+    Settling settling(options_);
+    Stride stride(options_.anderson_window);
+    Kept best;      // is returned if nothing settles
+    Kept fallback;  // had settled in a smaller space
     int grown_at = 0;
-    double last_change = 1, relaxation = 1;
-    bool accelerated = false;
+    double change = 1;
     while (iterations_ < options_.max_iterations) {
-        const Eigen::VectorXcd& phi = coefficient_step_.values(state.direction);
-        const Eigen::VectorXcd nu = coefficient_step_.coefficient(state.k, phi);
-        map_step_.weigh(phi);
-        map_step_.solve(nu, kSolveBelowChange * std::min(change, 0.1));
-        ++iterations_;
-        const Eigen::VectorXcd mu = beltrami_coefficient(map_step_.derivatives());
-        step_ = coefficient_step_.solve(mu, state.direction,
-                                        options_.step_below_change * std::min(change, kLargeChange), kNewtonSteps);
-        if (step_.merit > best.merit) {
-            best = step_;
-            best_map = map_step_.snapshot();
-        }
+        const Eigen::VectorXcd mu = step_from(state, change);
+        if (step_.merit > best.step.merit) best = {step_, map_step_.snapshot()};
         change = (step_.direction - state.direction).norm();
         const double k_change = std::abs(step_.k - state.k);
         history_.push_back({step_.k, change, state.space->size(), mu.cwiseAbs().maxCoeff()});
         if (options_.progress && !options_.progress(iterations_, step_.k))
             throw Error(Cause::cancelled, "cancelled after iteration " + std::to_string(iterations_));
 
-        // Where k vanishes the direction of φ means nothing. Zeros of φ that wander across samples keep its direction
-        // from settling entirely.
-        if (change < 0.5 * least_change) {
-            least_change = change;
-            since_least = 0;
-        } else {
-            ++since_least;
-        }
-        const bool stalled = least_change < kStalledBelow && since_least >= kStalledFor && k_change < kStalledChangeOfK;
-        // Where the data hardly tell two φ apart, φ wanders while k stays and the bound is as near as it will come.
-        const double gap = bracket(step_);
-        quiet = change > kQuietAbove && k_change < kQuietChangeOfK ? quiet + 1 : 0;
-        const bool undecided = quiet >= options_.quiet_steps && gap < kQuietGap && !state.space->preliminary();
-        const bool within = gap > options_.tight && !state.space->preliminary() && change < kLargeChange &&
-                            std::max(change * change, k_change / step_.k) < options_.within_bracket * gap;
-        const bool settled = undecided || within ||
-                             (!state.space->preliminary() && step_.converged &&
-                              (stalled || (k_change < options_.k_tolerance &&
-                                           (change < options_.tolerance || step_.k < options_.k_tolerance))));
+        const bool preliminary = state.space->preliminary();
+        const bool settled = settling.after(step_, change, k_change, preliminary);
         // Growing is decided where the map is exact to rounding, which must not turn the decision: at the start
-        // (above), at the first map that comes from another mesh's φ, and in the end.
+        // (begin()), at the first map that comes from another mesh's φ, and in the end.
         if ((from_elsewhere && options_.grow_first && iterations_ == 1) || (settled && options_.grow_last) ||
-            (state.space->preliminary() && iterations_ == kPreliminaryIterations)) {
+            (preliminary && iterations_ == kPreliminaryIterations)) {
             if (settled) {
-                fallback = step_;
-                fallback_map = map_step_.snapshot();
+                fallback = {step_, map_step_.snapshot()};
                 grown_at = iterations_;
             }
             if (grow(state, mu)) {
-                anderson.reset();
-                change = least_change = relaxation = 1;
-                since_least = quiet = 0;
+                settling.restart();
+                stride.restart();
+                change = 1;
                 state.direction = step_.direction;
                 state.k = std::min(step_.k, kLargest);
                 continue;
@@ -186,41 +260,14 @@ void HamiltonIteration::run(HamiltonState& state, std::unique_ptr<DifferentialSp
             break;
         }
         if (grown_at > 0 && iterations_ - grown_at > kGrownIterations) break;
-        // Acceleration can lead astray where the iteration is not smooth; a plain step then brings it back.
-        const bool astray = accelerated && change > last_change;
-        if (astray) anderson.reset();
-        // Two φ that call for each other in turn are brought together by going half the way.
-        if (change > kTurnsBack && change > 0.8 * last_change)
-            relaxation = std::max(0.5 * relaxation, kLeastRelaxation);
-        last_change = change;
-        accelerated = options_.anderson_window > 0 && change < kAccelerateBelow && !astray;
-        if (accelerated) {
-            const Eigen::VectorXd next = anderson.next(pack(state.direction, state.k), pack(step_.direction, step_.k));
-            const Eigen::Index m = state.direction.size();
-            state.direction.real() = next.head(m);
-            state.direction.imag() = next.segment(m, m);
-            state.direction.normalize();
-            state.k = std::clamp(next[2 * m], 0.0, kLargest);
-        } else {
-            state.direction =
-                relaxation == 1
-                    ? step_.direction
-                    : Eigen::VectorXcd(
-                          (state.direction + relaxation * (step_.direction - state.direction)).normalized());
-            state.k = std::min(state.k + relaxation * (step_.k - state.k), kLargest);
-        }
+        stride.take(step_, change, state);
     }
     // A larger space in which nothing settles, or which makes the bound worse, was too large for the mesh.
-    if (grown_at > 0 && (!converged_ || step_.merit < (1 - kWorse) * fallback.merit)) {
+    if (grown_at > 0 && (!converged_ || step_.merit < (1 - kWorse) * fallback.step.merit)) {
         converged_ = true;
-        map_step_.restore(fallback_map);
-        step_ = std::move(fallback);
-        step_.direction.conservativeResizeLike(Eigen::VectorXcd::Zero(state.space->size()));
-    } else if (!converged_ && best.merit > step_.merit) {
-        const Eigen::Index size = state.space->size();
-        map_step_.restore(best_map);
-        step_ = std::move(best);
-        step_.direction.conservativeResizeLike(Eigen::VectorXcd::Zero(size));
+        go_back_to(std::move(fallback), state);
+    } else if (!converged_ && best.step.merit > step_.merit) {
+        go_back_to(std::move(best), state);
     }
     state.direction = step_.direction;
     state.k = step_.k;

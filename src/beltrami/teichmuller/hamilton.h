@@ -1,5 +1,6 @@
 #pragma once
 
+#include <any>
 #include <memory>
 #include <vector>
 
@@ -60,6 +61,15 @@ class HamiltonIteration {
     double first_step() const;
     double growing_step() const;
     bool grow(HamiltonState& state, const Eigen::VectorXcd& mu);
+    void begin(HamiltonState& state, std::unique_ptr<DifferentialSpace> smallest);
+    Eigen::VectorXcd step_from(const HamiltonState& state, double last_change);
+
+    /// A c-step and the map that it was made of.
+    struct Kept {
+        CoefficientStep::Result step;
+        std::any map;
+    };
+    void go_back_to(Kept kept, const HamiltonState& state);
 
     MapStep& map_step_;
     CoefficientStep& coefficient_step_;
