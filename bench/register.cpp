@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -18,8 +17,8 @@
 #include <beltrami/io/number_lists.h>
 #include <beltrami/mesh/submesh.h>
 #include <beltrami/meshing/face_split.h>
-#include <beltrami/report/timing.h>
 
+#include "closed_harmonic.h"
 #include "problems/sphere_landmarks.h"
 
 namespace {
@@ -28,18 +27,6 @@ using namespace beltrami;
 
 double now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-double harmonic(const Mesh& closed) {
-    std::vector<int> faces;
-    for (int f = 1; f < closed.face_count(); ++f) faces.push_back(f);
-    const Surface open(keep_faces(closed, faces).mesh);
-    BoundaryCondition boundary;
-    const std::vector<int>& rim = open.topology.boundary_loops[0];
-    for (std::size_t i = 0; i < rim.size(); ++i)
-        boundary.pin(rim[i],
-                     std::polar(1.0, 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(rim.size())));
-    return harmonic_seconds(open, boundary);
 }
 
 void oracle(const std::string& name, const bench::SphereLandmarks& problem) {
@@ -73,7 +60,7 @@ void pair(const char* a, const char* b, const char* pairs) {
     std::vector<SurfaceLandmark> landmarks;
     for (const auto& row : read_rows(pairs, 2, "a landmark"))
         landmarks.push_back({static_cast<int>(row[0]), place_of_vertex(target.mesh, static_cast<int>(row[1]))});
-    const double of_harmonic = harmonic(source.mesh), begun = now();
+    const double of_harmonic = bench::closed_harmonic(source.mesh), begun = now();
     (void)sphere_map(source);
     (void)sphere_map(target);
     const double middle = now();

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,7 +16,8 @@
 #include <beltrami/beltrami.h>
 #include <beltrami/mesh/submesh.h>
 #include <beltrami/meshing/face_split.h>
-#include <beltrami/report/timing.h>
+
+#include "closed_harmonic.h"
 
 namespace {
 
@@ -49,20 +49,8 @@ Mesh limbs(int levels) {
     return mesh;
 }
 
-double harmonic(const Mesh& closed) {
-    std::vector<int> faces;
-    for (int f = 1; f < closed.face_count(); ++f) faces.push_back(f);
-    const Surface open(keep_faces(closed, faces).mesh);
-    BoundaryCondition boundary;
-    const std::vector<int>& rim = open.topology.boundary_loops[0];
-    for (std::size_t i = 0; i < rim.size(); ++i)
-        boundary.pin(rim[i],
-                     std::polar(1.0, 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(rim.size())));
-    return harmonic_seconds(open, boundary);
-}
-
 void measure(const std::string& name, Mesh mesh) {
-    const double of_harmonic = harmonic(mesh);
+    const double of_harmonic = bench::closed_harmonic(mesh);
     const Surface surface(std::move(mesh));
     std::vector<double> seconds;
     SphereMap map;

@@ -43,6 +43,16 @@ Eigen::VectorXd areas_in_domain(const Operators& operators, const Chart& chart) 
     return areas;
 }
 
+/// How a dual problem ended, and its φ made of length 1.
+CoefficientStep::Result result_of(const DualSolution& dual) {
+    CoefficientStep::Result result;
+    result.converged = dual.converged;
+    result.newton_steps = dual.newton_steps;
+    const double length = dual.coefficients.norm();
+    result.direction = length > 0 ? Eigen::VectorXcd(dual.coefficients / length) : dual.coefficients;
+    return result;
+}
+
 }  // namespace
 
 CoefficientStep::CoefficientStep(const Surface& source, const Chart& chart, const Singularities& singularities,
@@ -285,11 +295,7 @@ CoefficientStep::Result CoefficientStep::solve_on_cells(const Weights& weights, 
     const DualSolution dual = solve_dual(problem_, at, options);
     moved_ = dual.moved;
 
-    Result result;
-    result.converged = dual.converged;
-    result.newton_steps = dual.newton_steps;
-    const double length = dual.coefficients.norm();
-    result.direction = length > 0 ? Eigen::VectorXcd(dual.coefficients / length) : dual.coefficients;
+    Result result = result_of(dual);
     result.phi = values(result.direction);
     double pairing = 0, norm = 0, plain = 0;
     for (Eigen::Index i = 0; i < result.phi.size(); ++i) {
@@ -327,11 +333,8 @@ CoefficientStep::Result CoefficientStep::solve_on_samples(const Weights& weights
     const DualSolution dual = solve_dual(problem_, at, options);
     moved_ = dual.moved;
 
-    Result result;
-    result.converged = dual.converged;
-    result.newton_steps = dual.newton_steps;
+    Result result = result_of(dual);
     const double length = dual.coefficients.norm();
-    result.direction = length > 0 ? Eigen::VectorXcd(dual.coefficients / length) : dual.coefficients;
     const Eigen::VectorXcd phi = length > 0 ? Eigen::VectorXcd(dual.phi / length) : dual.phi;
     result.phi = phi.head(samples);
     const double size = norm.norm(phi, 0);
