@@ -152,6 +152,7 @@ class Transfer final : public Command {
     void write_points(const Direction& way) {
         const std::vector<NumberRow> rows = read_number_rows(points_, 3, 5, "a point x y z, or face and weights");
         std::vector<MeshPoint> places;
+        places.reserve(rows.size());
         for (const NumberRow& row : rows)
             places.push_back(row.numbers.size() == 3
                                  ? nearest(way.from(), Eigen::Map<const Eigen::RowVector3d>(row.numbers.data()))[0]
