@@ -1,4 +1,4 @@
-# Embeds a file in <target> as an array of bytes, beltrami::<symbol> and beltrami::<symbol>_size. Where it says
+# Embeds a file in <target> as an array of bytes, beltrami::<symbol> and beltrami::<symbol>Size. Where it says
 # @name.ext@, the further file of that name is put in. All are read again when one of them changes.
 function(beltrami_embed target symbol file)
     file(READ ${file} bytes HEX)
@@ -12,9 +12,9 @@ function(beltrami_embed target symbol file)
     file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${symbol}.cpp @ONLY CONTENT "#include <cstddef>
 namespace beltrami {
 extern const unsigned char @symbol@[];
-extern const std::size_t @symbol@_size;
+extern const std::size_t @symbol@Size;
 const unsigned char @symbol@[] = {@bytes@};
-const std::size_t @symbol@_size = sizeof(@symbol@);
+const std::size_t @symbol@Size = sizeof(@symbol@);
 }  // namespace beltrami
 ")
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file} ${ARGN})

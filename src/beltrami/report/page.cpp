@@ -17,14 +17,14 @@
 namespace beltrami {
 
 // page.html.in, turned into an array by the build.
-extern const unsigned char page_template[];
-extern const std::size_t page_template_size;
+extern const unsigned char kPageTemplate[];
+extern const std::size_t kPageTemplateSize;
 
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int histogram_bins = 64;
+constexpr int kHistogramBins = 64;
 
 /// Bytes of 32-bit values, little-endian whatever the machine, in base64.
 class Base64 {
@@ -113,7 +113,7 @@ double round_up(double value) {
 /// Shares by |μ| of all faces of the mesh.
 /// @param weights of the faces: their areas, or one for each
 Json histogram(const Eigen::VectorXd& abs_mu, const Eigen::VectorXd& weights, double end) {
-    std::vector<double> bins(histogram_bins, 0.0);
+    std::vector<double> bins(kHistogramBins, 0.0);
     double above = 0.0;
     double flipped = 0.0;
     double undefined = 0.0;
@@ -128,7 +128,7 @@ Json histogram(const Eigen::VectorXd& abs_mu, const Eigen::VectorXd& weights, do
         } else if (value > end) {
             above += share;
         } else {
-            const auto bin = static_cast<std::size_t>(std::max(value, 0.0) / end * histogram_bins);
+            const auto bin = static_cast<std::size_t>(std::max(value, 0.0) / end * kHistogramBins);
             bins[std::min(bin, bins.size() - 1)] += share;
         }
     }
@@ -239,7 +239,7 @@ std::string render_page(const PageContent& content) {
     }
 
     std::string html;
-    std::string_view rest(reinterpret_cast<const char*>(page_template), page_template_size);
+    std::string_view rest(reinterpret_cast<const char*>(kPageTemplate), kPageTemplateSize);
     const auto copy_until = [&](std::string_view mark) {
         const std::size_t at = rest.find(mark);
         html += rest.substr(0, at);

@@ -118,6 +118,7 @@ LoopPartners loop_partners(const Surface& source, const CircleDomainChart& chart
 LoopPartners turned(const LoopPartners& partners, const CircleDomainChart& chart, const TargetModel& target,
                     const Correspondence& wanted) {
     std::vector<PlacePair> centres;
+    centres.reserve(chart.holes.size());
     for (const RoundHole& hole : chart.holes)
         centres.push_back({hole.centre, target.circle(partners.curves[hole.loop]).centre});
     LoopPartners result;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <tuple>
 
 #include <beltrami/base/error.h>
 #include <beltrami/mesh/boundary_position.h>
@@ -25,6 +26,7 @@ std::vector<char> wholly_prescribed(const Surface& source, const BoundaryConditi
     std::vector<char> is_prescribed(source.mesh.vertex_count(), 0);
     for (const int v : prescribed.vertices) is_prescribed[v] = 1;
     std::vector<char> result;
+    result.reserve(source.topology.boundary_loops.size());
     for (const auto& loop : source.topology.boundary_loops)
         result.push_back(std::all_of(loop.begin(), loop.end(), [&](int v) { return is_prescribed[v]; }));
     return result;
@@ -52,13 +54,15 @@ std::vector<std::array<int, 2>> nearest_curves(const Surface& source, const Targ
                 {distance / static_cast<double>(source.topology.boundary_loops[l].size()), {static_cast<int>(l), c}});
         }
     }
-    std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.distance < b.distance; });
+    std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
+        return std::tie(a.distance, a.loop_and_curve) < std::tie(b.distance, b.loop_and_curve);
+    });
     std::vector<std::array<int, 2>> result;
     for (const Pair& pair : pairs) {
-        const auto [loop, curve] = pair.loop_and_curve;
+        const std::array<int, 2>& next = pair.loop_and_curve;
         if (std::none_of(result.begin(), result.end(),
-                         [&](const auto& taken) { return taken[0] == loop || taken[1] == curve; }))
-            result.push_back(pair.loop_and_curve);
+                         [&](const auto& taken) { return taken[0] == next[0] || taken[1] == next[1]; }))
+            result.push_back(next);
     }
     return result;
 }

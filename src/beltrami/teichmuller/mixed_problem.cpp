@@ -160,6 +160,7 @@ AdmissibleDifferentials mixed_differentials(const Surface& source, const CircleD
     }
     result.singularities = mixed.singularities();
     std::vector<int> powers;
+    powers.reserve(domain.holes.size());
     for (const RoundHole& hole : domain.holes)
         powers.push_back(std::clamp(static_cast<int>(source.topology.boundary_loops[hole.loop].size()) / kEdgesPerPower,
                                     kLeastPower, kMostPower));
