@@ -41,6 +41,17 @@ Complex node_direction(Complex first, int q) {
     return q == 0 ? first : first * Complex(c, q == 1 ? s : -s);
 }
 
+/// body(c) for every cell, which writes to places of its own.
+template <class Body>
+void for_each(int cells, const Body& body) {
+    parallel_for(
+        0, cells,
+        [&](int first, int last) {
+            for (int c = first; c < last; ++c) body(c);
+        },
+        kCellsPerChunk);
+}
+
 }  // namespace
 
 ChartCells::ChartCells(const Chart& chart, const Eigen::VectorXd& areas, double phase)
@@ -55,12 +66,7 @@ ChartCells::ChartCells(const Chart& chart, const Eigen::VectorXd& areas, double 
     }
     nodes_.resize(nodes);
     places_.resize(places);
-    parallel_for(
-        0, cell_count(),
-        [&](int first, int last) {
-            for (int c = first; c < last; ++c) set_nodes(cells_[c], areas, c);
-        },
-        kCellsPerChunk);
+    for_each(cell_count(), [&](int c) { set_nodes(cells_[c], areas, c); });
 }
 
 void ChartCells::set_nodes(Cell& cell, const Eigen::VectorXd& areas, int index) {
@@ -108,67 +114,57 @@ void ChartCells::set_nodes(Cell& cell, const Eigen::VectorXd& areas, int index) 
 
 Eigen::VectorXd ChartCells::node_weights(const Eigen::VectorXd& of_samples) const {
     Eigen::VectorXd weights(nodes_.size());
-    parallel_for(
-        0, cell_count(),
-        [&](int first, int last) {
-            for (int c = first; c < last; ++c) {
-                const Cell& cell = cells_[c];
-                const int begin = grid_.offsets[c], end = grid_.offsets[c + 1];
-                if (cell.itself) {
-                    for (int i = begin; i < end; ++i) weights[cell.node + i - begin] = of_samples[grid_.samples[i]];
-                    continue;
-                }
-                double mass = 0;
-                Complex mean = 0;
-                for (int i = begin; i < end; ++i) {
-                    const int s = grid_.samples[i];
-                    mass += of_samples[s];
-                    mean += of_samples[s] * (chart_.positions[s] - cell.centre);
-                }
-                if (mass > 0) mean /= mass;
-                mean = {cell.xx * mean.real() + cell.xy * mean.imag(), cell.xy * mean.real() + cell.yy * mean.imag()};
-                const double far = std::abs(mean);
-                if (far > kFarthestMean) mean *= kFarthestMean / far;
-                for (int q = 0; q < kNodes; ++q)
-                    weights[cell.node + q] =
-                        mass / kNodes * (1 + std::real(std::conj(node_direction(cell.direction, q)) * mean));
-            }
-        },
-        kCellsPerChunk);
+    for_each(cell_count(), [&](int c) {
+        const Cell& cell = cells_[c];
+        const int begin = grid_.offsets[c], end = grid_.offsets[c + 1];
+        if (cell.itself) {
+            for (int i = begin; i < end; ++i) weights[cell.node + i - begin] = of_samples[grid_.samples[i]];
+            return;
+        }
+        double mass = 0;
+        Complex mean = 0;
+        for (int i = begin; i < end; ++i) {
+            const int s = grid_.samples[i];
+            mass += of_samples[s];
+            mean += of_samples[s] * (chart_.positions[s] - cell.centre);
+        }
+        if (mass > 0) mean /= mass;
+        mean = {cell.xx * mean.real() + cell.xy * mean.imag(), cell.xy * mean.real() + cell.yy * mean.imag()};
+        const double far = std::abs(mean);
+        if (far > kFarthestMean) mean *= kFarthestMean / far;
+        for (int q = 0; q < kNodes; ++q)
+            weights[cell.node + q] =
+                mass / kNodes * (1 + std::real(std::conj(node_direction(cell.direction, q)) * mean));
+    });
     return weights;
 }
 
 Eigen::VectorXcd ChartCells::place_weights(const Eigen::VectorXcd& of_samples) const {
     Eigen::VectorXcd weights(places_.size());
     const Complex turn = std::polar(1.0, -phase_);
-    parallel_for(
-        0, cell_count(),
-        [&](int first, int last) {
-            for (int c = first; c < last; ++c) {
-                const Cell& cell = cells_[c];
-                const int begin = grid_.offsets[c], end = grid_.offsets[c + 1];
-                if (cell.itself) {
-                    for (int i = begin; i < end; ++i) weights[cell.place + i - begin] = of_samples[grid_.samples[i]];
-                    continue;
-                }
-                // Moments in units of the circle; the cubic's coefficients are the discrete Fourier transform of its
-                // values at the places.
-                const Complex scale = turn * (2 / grid_.size[c]);
-                std::array<Complex, kPlaces> moment{};
-                for (int i = begin; i < end; ++i) {
-                    const int s = grid_.samples[i];
-                    const Complex w = scale * (chart_.positions[s] - cell.centre);
-                    Complex term = of_samples[s];
-                    for (int p = 0; p < kPlaces; ++p, term *= w) moment[p] += term;
-                }
-                for (int q = 0; q < kPlaces; ++q) {
-                    Complex weight = 0;
-                    for (int p = 0; p < kPlaces; ++p) weight += 0.25 * std::conj(on_circle(p * q)) * moment[p];
-                    weights[cell.place + q] = weight;
-                }
-            }
-        },
-        kCellsPerChunk);
+    for_each(cell_count(), [&](int c) {
+        const Cell& cell = cells_[c];
+        const int begin = grid_.offsets[c], end = grid_.offsets[c + 1];
+        if (cell.itself) {
+            for (int i = begin; i < end; ++i) weights[cell.place + i - begin] = of_samples[grid_.samples[i]];
+            return;
+        }
+        // Moments in units of the circle; the cubic's coefficients are the discrete Fourier transform of its
+        // values at the places.
+        const Complex scale = turn * (2 / grid_.size[c]);
+        std::array<Complex, kPlaces> moment{};
+        for (int i = begin; i < end; ++i) {
+            const int s = grid_.samples[i];
+            const Complex w = scale * (chart_.positions[s] - cell.centre);
+            Complex term = of_samples[s];
+            for (int p = 0; p < kPlaces; ++p, term *= w) moment[p] += term;
+        }
+        for (int q = 0; q < kPlaces; ++q) {
+            Complex weight = 0;
+            for (int p = 0; p < kPlaces; ++p) weight += 0.25 * std::conj(on_circle(p * q)) * moment[p];
+            weights[cell.place + q] = weight;
+        }
+    });
     return weights;
 }
 
