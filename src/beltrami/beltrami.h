@@ -29,6 +29,7 @@
 #include <beltrami/differentials/zeros_and_poles.h>
 #include <beltrami/evening/even_dilatation.h>
 #include <beltrami/flow/beltrami_flow.h>
+#include <beltrami/flow/surface_flow.h>
 #include <beltrami/forms/flat_torus.h>
 #include <beltrami/forms/harmonic_basis.h>
 #include <beltrami/forms/homology.h>
@@ -77,6 +78,10 @@
 #include <beltrami/solve/composition.h>
 #include <beltrami/solve/quasiconformal_map.h>
 #include <beltrami/targets/correspondence.h>
+#include <beltrami/targets/implicit_target.h>
+#include <beltrami/targets/mesh_target.h>
+#include <beltrami/targets/parametric_target.h>
+#include <beltrami/targets/simple_targets.h>
 #include <beltrami/targets/target_domain.h>
 #include <beltrami/targets/target_mesh.h>
 #include <beltrami/teichmuller/certify.h>

@@ -4,6 +4,8 @@
 #include <limits>
 #include <numeric>
 
+#include <beltrami/mesh/quad_split.h>
+
 namespace beltrami {
 
 namespace {
@@ -116,6 +118,27 @@ SurfaceLocator::Place SurfaceLocator::nearest(const Eigen::Vector3d& point) cons
         stack[depth++] = left_first ? left : right;
     }
     return best;
+}
+
+std::vector<std::array<int, 3>> as_triangles(const FaceList& faces, const Positions& points,
+                                             std::vector<int>& face_of_triangle) {
+    std::vector<std::array<int, 3>> triangles;
+    face_of_triangle.clear();
+    for (int f = 0; f < faces.size(); ++f) {
+        const auto v = faces[f];
+        if (v.size() == 3) {
+            triangles.push_back({v[0], v[1], v[2]});
+            face_of_triangle.push_back(f);
+            continue;
+        }
+        std::array<Eigen::Vector3d, 4> corners;
+        for (int i = 0; i < 4; ++i) corners[i] = points.row(v[i]);
+        for (const auto& c : split_quad(corners)) {
+            triangles.push_back({v[c[0]], v[c[1]], v[c[2]]});
+            face_of_triangle.push_back(f);
+        }
+    }
+    return triangles;
 }
 
 }  // namespace beltrami

@@ -48,4 +48,9 @@ class SurfaceLocator {
     std::vector<Node> nodes_;
 };
 
+/// Faces as triangles along the diagonals of quad_split.h, with the face of each.
+/// @param points #V×3
+std::vector<std::array<int, 3>> as_triangles(const FaceList& faces, const Positions& points,
+                                             std::vector<int>& face_of_triangle);
+
 }  // namespace beltrami

@@ -3,7 +3,6 @@
 #include <beltrami/base/error.h>
 #include <beltrami/base/parallel.h>
 #include <beltrami/locate/surface_locator.h>
-#include <beltrami/registration/sphere_locator.h>
 
 namespace beltrami {
 

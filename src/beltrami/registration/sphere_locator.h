@@ -37,9 +37,4 @@ class SphereLocator {
 /// The point of the sphere at a place of a mesh there: the mean of the corners, back on the sphere.
 Eigen::Vector3d sphere_place(const Positions& points, const MeshPoint& place);
 
-/// Faces as triangles along the diagonals of quad_split.h, with the face of each.
-/// @param points #V×3
-std::vector<std::array<int, 3>> as_triangles(const FaceList& faces, const Positions& points,
-                                             std::vector<int>& face_of_triangle);
-
 }  // namespace beltrami

@@ -11,6 +11,7 @@
 
 #include <beltrami/base/error.h>
 #include <beltrami/base/parallel.h>
+#include <beltrami/solve/image_frame.h>
 #include <beltrami/sphere/unit_sphere.h>
 
 namespace beltrami {
@@ -26,47 +27,10 @@ constexpr double kShort = 0.3, kNearlyFull = 0.9;  // step lengths at which the 
 constexpr double kFirstDamping = 1e-3, kLeastDamping = 1e-5, kDampingFactor = 4;
 constexpr double kNoticeable = 1e-2;
 
-/// Derivatives of a map in an orthonormal frame of the image, seen from outside.
-struct Frame {
-    Complex p, q;            // ∂f, ∂̄f
-    Eigen::Vector3d e1, e2;  // the frame
-    bool upright = false;
-
-    /// ∂̄ of a motion as a function of the image, from its derivatives ½ b conj(g) and ½ b g in the source: of the
-    /// vertex with the gradient g, which moves by a direction.
-    Complex change(Complex g, const Eigen::Vector3d& direction) const {
-        const Complex b(direction.dot(e1), direction.dot(e2));
-        return 0.5 * b * (p * g - q * std::conj(g)) / (std::norm(p) - std::norm(q));
-    }
-};
-
-Frame frame_at(const Operators& operators, int sample, const Positions& points) {
-    const auto stencil = operators.stencil(sample);
-    const auto gradient = operators.gradient(sample);
-    Eigen::Vector3d x = Eigen::Vector3d::Zero(), y = x, up = x;
-    const Eigen::Vector3d base = points.row(stencil[0]);
-    for (std::size_t j = 0; j < stencil.size(); ++j) {
-        const Eigen::Vector3d point = points.row(stencil[j]);
-        x += gradient[j].real() * (point - base);
-        y += gradient[j].imag() * (point - base);
-        up += point;
-    }
-    Frame frame;
-    const Eigen::Vector3d normal = x.cross(y);
-    frame.upright = normal.dot(up) > 0;
-    if (!frame.upright) return frame;
-    frame.e1 = (x.squaredNorm() >= y.squaredNorm() ? x : y).normalized();
-    frame.e2 = normal.cross(frame.e1).normalized();
-    const Complex fx(x.dot(frame.e1), x.dot(frame.e2)), fy(y.dot(frame.e1), y.dot(frame.e2)), i(0, 1);
-    frame.p = 0.5 * (fx - i * fy);
-    frame.q = 0.5 * (fx + i * fy);
-    return frame;
-}
-
 }  // namespace
 
 /// A sample of the map.
-struct SphereBarrier::Sample : Frame {
+struct SphereBarrier::Sample : ImageFrame {
     Complex quotient;     // T
     Complex denominator;  // 1 − conj(σ) μ
 };
@@ -84,7 +48,7 @@ void SphereBarrier::aim(Eigen::VectorXcd sigma, std::vector<double> weights) {
 }
 
 SphereBarrier::Sample SphereBarrier::at(int sample, const Positions& points) const {
-    Sample s{frame_at(operators_, sample, points), {}, {}};
+    Sample s{image_frame(operators_, sample, points, points), {}, {}};
     if (!s.upright) return s;
     const Complex mu = s.q / s.p;
     s.denominator = 1.0 - std::conj(sigma_[sample]) * mu;
@@ -105,21 +69,6 @@ double SphereBarrier::value(const Positions& points) const {
         return part;
     });
     return sum / total_weight_;
-}
-
-/// Of the smallest face at each vertex the longest edge in the image.
-Eigen::VectorXd SphereBarrier::local_sizes(const Positions& points) const {
-    Eigen::VectorXd sizes = Eigen::VectorXd::Constant(operators_.vertex_count, kInfinity);
-    for (int s = 0; s < operators_.sample_count(); ++s) {
-        const auto stencil = operators_.stencil(s);
-        double longest = 0;
-        for (std::size_t j = 0; j < stencil.size(); ++j)
-            longest =
-                std::max(longest, (points.row(stencil[(j + 1) % stencil.size()]) - points.row(stencil[j])).norm());
-        for (const int v : stencil) sizes[v] = std::min(sizes[v], longest);
-    }
-    for (double& size : sizes) size = std::isfinite(size) ? std::max(size, 1e-300) : 1;
-    return sizes;
 }
 
 void SphereBarrier::assemble(const Positions& points, const Eigen::VectorXd& units) {
@@ -158,7 +107,7 @@ void SphereBarrier::assemble(const Positions& points, const Eigen::VectorXd& uni
 
 SphereBarrier::Taken SphereBarrier::step(Positions& points) {
     const double before = value(points);
-    const Eigen::VectorXd units = local_sizes(points);
+    const Eigen::VectorXd units = local_sizes(operators_, points);
     CoupledSystem::Step step;
     for (double shift = kShift;; shift *= 100) {
         assemble(points, units);
@@ -204,7 +153,7 @@ Eigen::VectorXcd coefficient_change(const Operators& operators, const Positions&
     Eigen::VectorXcd change(operators.sample_count());
     parallel_for(0, operators.sample_count(), [&](int first, int last) {
         for (int s = first; s < last; ++s) {
-            const Frame frame = frame_at(operators, s, points);
+            const ImageFrame frame = image_frame(operators, s, points, points);
             const auto stencil = operators.stencil(s);
             const auto gradient = operators.gradient(s);
             Complex sum = 0;

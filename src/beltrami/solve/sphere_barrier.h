@@ -50,7 +50,6 @@ class SphereBarrier {
     struct Sample;
     Sample at(int sample, const Positions& points) const;
     void assemble(const Positions& points, const Eigen::VectorXd& units);
-    Eigen::VectorXd local_sizes(const Positions& points) const;
 
     const Operators& operators_;
     std::vector<Freedom> freedoms_;

@@ -1,0 +1,245 @@
+#include <beltrami/flow/surface_flow.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include <beltrami/base/error.h>
+#include <beltrami/solve/image_frame.h>
+#include <beltrami/solve/quasiconformal_map.h>
+#include <beltrami/solve/raised_corners.h>
+#include <beltrami/solve/target_step.h>
+#include <beltrami/solve/vertex_samples.h>
+
+namespace beltrami {
+
+namespace {
+
+constexpr double kLongestMotion = 0.2;  // of the image's diameter
+constexpr double kWhole = 0.4;          // step length from which a small decrease means that the energy has settled
+constexpr double kHeldUp = 1e-3;        // step length below which another kind of step is tried
+/// A step below this part of the image's size that lowers nothing is rounding: the energy is flat there.
+constexpr double kRounding = 1e-6;
+
+/// The step that is to be taken next where the scheme is automatic: barriers need upright samples; where residual steps
+/// are held up perturbation steps are taken until nothing is flipped.
+class Scheme {
+  public:
+    explicit Scheme(FlowScheme wanted) : wanted_(wanted) {}
+    FlowScheme now(int flips) const {
+        if (wanted_ != FlowScheme::automatic) return wanted_;
+        if (flips == 0) return FlowScheme::barrier;
+        return held_up_ ? FlowScheme::perturbation : FlowScheme::residual;
+    }
+    /// Whether another kind of step is left after one of this length.
+    bool turns(double length) {
+        if (wanted_ != FlowScheme::automatic || held_up_ || length > kHeldUp) return false;
+        held_up_ = true;
+        return true;
+    }
+
+  private:
+    FlowScheme wanted_;
+    bool held_up_ = false;
+};
+
+void require_start(const Surface& source, const TargetConstraints& constraints, const TargetMap& start) {
+    validate(constraints, source);
+    if (start.points.size() != static_cast<std::size_t>(source.mesh.vertex_count()) ||
+        start.parameters.size() != constraints.sliding.size())
+        throw Error(Cause::bad_option, "the start belongs to another source or to other constraints");
+}
+
+/// The flow from a start, whatever it makes small.
+class Flow {
+  public:
+    Flow(const Surface& source, const Target& target, const TargetConstraints& constraints, TargetMap start,
+         const SurfaceFlowOptions& options)
+        : source_(source),
+          options_(options),
+          motion_(source, target, constraints),
+          scheme_(options.scheme),
+          step_(source.operators, motion_),
+          vertex_weights_(weights_of(source.operators)) {
+        result_.map = std::move(start);
+        flips_ = flipped_samples(source.operators, result_.map);
+        const Positions points = positions_of(result_.map.points);
+        size_ = (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
+    }
+
+    /// @param energy of a scheme that is not automatic
+    /// @param mu     #S wanted coefficient
+    template <class EnergyOf>
+    SurfaceFlowMap run(const Eigen::VectorXcd& mu, EnergyOf&& energy_of) {
+        result_.termination = Termination::iteration_limit;
+        std::unique_ptr<TargetEnergy> energy;
+        FlowScheme of_energy = FlowScheme::automatic;
+        while (result_.iterations < options_.max_iterations) {
+            const FlowScheme scheme = scheme_.now(flips_);
+            if (scheme == FlowScheme::barrier && flips_ > 0)
+                throw Error(Cause::bad_option, "a barrier against flips needs a start without them; " +
+                                                   std::to_string(flips_) + " samples are flipped");
+            if (scheme != of_energy) energy = energy_of(of_energy = scheme);
+            const TargetStep::Taken taken = take(*energy, scheme, mu);
+            if (flips_ > 0 && scheme_.turns(taken.length)) continue;
+            if (taken.length == 0) {
+                if (taken.wanted < kRounding * size_) result_.termination = Termination::converged;
+                break;
+            }
+            if (settled(*energy, taken)) {
+                result_.termination = Termination::converged;
+                break;
+            }
+        }
+        return finish(mu);
+    }
+
+  private:
+    static Eigen::VectorXd weights_of(const Operators& operators) {
+        Eigen::VectorXd weights = Eigen::VectorXd::Zero(operators.vertex_count);
+        for (int s = 0; s < operators.sample_count(); ++s)
+            for (const int v : operators.stencil(s)) weights[v] += operators.weights[s];
+        return weights;
+    }
+
+    TargetStep::Taken take(TargetEnergy& energy, FlowScheme scheme, const Eigen::VectorXcd& mu) {
+        const TargetStep::Taken taken = step_.step(energy, result_.map, kLongestMotion * size_);
+        ++result_.iterations;
+        if (motion_.unheld() && taken.length > 0) centre();
+        flips_ = flipped_samples(source_.operators, result_.map);
+        SurfaceFlowIteration now{
+            scheme, taken.energy, taken.length, taken.movement / size_, coefficient_error(source_, result_.map, mu),
+            0,      flips_};
+        now.squared_error = now.error.l2 * now.error.l2 * source_.operators.area();
+        result_.history.push_back(now);
+        if (options_.progress && !options_.progress(result_.iterations, now, result_.map))
+            throw Error(Cause::cancelled, "cancelled after step " + std::to_string(result_.iterations));
+        return taken;
+    }
+
+    bool settled(const TargetEnergy& energy, const TargetStep::Taken& taken) const {
+        if (taken.movement < options_.tolerance * size_) return true;
+        return energy.descends() && taken.length > kWhole && !taken.damped && taken.fallen < options_.least_decrease;
+    }
+
+    /// To the representative that is centred, unless that would flip something.
+    void centre() {
+        TargetMap centred{motion_.target().centred(result_.map.points, vertex_weights_), {}};
+        if (flipped_samples(source_.operators, centred) <= flipped_samples(source_.operators, result_.map))
+            result_.map = std::move(centred);
+    }
+
+    SurfaceFlowMap finish(const Eigen::VectorXcd& mu) {
+        result_.factorizations = step_.factorization_count();
+        result_.distortion = distortion(
+            source_.operators,
+            derivatives(source_.operators, positions_of(result_.map.points), normals_of(result_.map.points)));
+        result_.error = coefficient_error(source_, result_.map, mu);
+        if (!result_.distortion.flipped.empty())
+            result_.warnings.push_back(
+                {WarningKind::flipped_faces,
+                 "flipped faces in the result: " + std::to_string(result_.distortion.flipped.size()) +
+                     "; it is not one-to-one there",
+                 {Things::faces, result_.distortion.flipped}});
+        if (result_.termination == Termination::iteration_limit)
+            result_.warnings.push_back(
+                {WarningKind::iteration_limit,
+                 "stopped after " + std::to_string(result_.iterations) + " steps before the map settled"});
+        return std::move(result_);
+    }
+
+    const Surface& source_;
+    const SurfaceFlowOptions& options_;
+    TargetMotion motion_;
+    Scheme scheme_;
+    TargetStep step_;
+    Eigen::VectorXd vertex_weights_;
+    SurfaceFlowMap result_;
+    int flips_ = 0;
+    double size_ = 1;
+};
+
+}  // namespace
+
+const char* to_string(FlowScheme scheme) {
+    switch (scheme) {
+        case FlowScheme::automatic:
+            return "automatic";
+        case FlowScheme::residual:
+            return "residual";
+        case FlowScheme::perturbation:
+            return "perturbation";
+        case FlowScheme::barrier:
+            return "barrier";
+    }
+    return "";
+}
+
+void SurfaceFlowOptions::validate() const {
+    if (!(tolerance > 0)) throw Error(Cause::bad_option, "the tolerance must be positive");
+    if (!(least_decrease >= 0 && least_decrease < 1))
+        throw Error(Cause::bad_option, "the least decrease must be from 0 to less than 1");
+    if (max_iterations < 1) throw Error(Cause::bad_option, "there must be at least one iteration");
+}
+
+CoefficientError coefficient_error(const Surface& source, const TargetMap& map, const Eigen::VectorXcd& mu) {
+    const Operators& operators = source.operators;
+    const Positions points = positions_of(map.points), normals = normals_of(map.points);
+    CoefficientError error;
+    double squares = 0, area = 0, residual = 0, whole = 0;
+    for (int s = 0; s < operators.sample_count(); ++s) {
+        const ImageFrame frame = image_frame(operators, s, points, normals);
+        const double difference = std::abs(frame.q / frame.p - mu[s]), w = operators.weights[s];
+        if (std::isfinite(difference)) {
+            squares += w * difference * difference;
+            area += w;
+            error.sup = std::max(error.sup, difference);
+        } else {
+            error.sup = std::numeric_limits<double>::infinity();
+        }
+        residual += w * std::norm(frame.q - mu[s] * frame.p);
+        whole += w * std::norm(frame.p);
+    }
+    error.l2 = area > 0 ? std::sqrt(squares / area) : 0.0;
+    error.residual = std::sqrt(residual / whole);
+    return error;
+}
+
+SurfaceFlowMap surface_flow(const Surface& source, const Target& target, const Eigen::VectorXcd& mu,
+                            const TargetConstraints& constraints, TargetMap start, const SurfaceFlowOptions& options) {
+    options.validate();
+    require_coefficient(source, mu);
+    require_start(source, constraints, start);
+    Flow flow(source, target, constraints, std::move(start), options);
+    return flow.run(mu, [&](FlowScheme scheme) -> std::unique_ptr<TargetEnergy> {
+        const std::vector<double>& areas = source.operators.weights;
+        if (scheme == FlowScheme::residual) return std::make_unique<ResidualEnergy>(mu, areas);
+        if (scheme == FlowScheme::perturbation) return std::make_unique<PerturbationEnergy>(mu, areas);
+        return std::make_unique<BarrierEnergy>(mu, areas);
+    });
+}
+
+SurfaceFlowMap least_lp_map(const Surface& source, const Target& target, const LpNorm& norm,
+                            const TargetConstraints& constraints, TargetMap start, const SurfaceFlowOptions& options) {
+    options.validate();
+    require_start(source, constraints, start);
+    if (!(norm.p >= 2 && std::isfinite(norm.p))) throw Error(Cause::bad_option, "p must be at least 2 and finite");
+    const std::vector<double>& weights = norm.weights.empty() ? source.operators.weights : norm.weights;
+    if (static_cast<int>(weights.size()) != source.operators.sample_count())
+        throw Error(Cause::bad_option, "there are " + std::to_string(weights.size()) + " weights for " +
+                                           std::to_string(source.operators.sample_count()) + " samples");
+    if (std::any_of(weights.begin(), weights.end(), [](double w) { return !(w > 0); }))
+        throw Error(Cause::bad_option, "weights must be positive");
+    const Eigen::VectorXcd zero = Eigen::VectorXcd::Zero(source.operators.sample_count());
+    Flow flow(source, target, constraints, std::move(start), options);
+    return flow.run(zero, [&](FlowScheme scheme) -> std::unique_ptr<TargetEnergy> {
+        if (scheme == FlowScheme::residual) return std::make_unique<ResidualEnergy>(zero, weights);
+        if (scheme == FlowScheme::perturbation) return std::make_unique<PerturbationEnergy>(zero, weights);
+        return std::make_unique<BarrierEnergy>(zero, weights, norm.p);
+    });
+}
+
+}  // namespace beltrami

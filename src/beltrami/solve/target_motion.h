@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <beltrami/constraints/target_constraints.h>
+#include <beltrami/linear/graph_laplacian.h>
+
+namespace beltrami {
+
+/// How the vertices of a map may move along its target, and where they then are: free ones in the tangent plane and
+/// back onto the target, sliding ones along their curve by arc length, held ones not at all. By what a curve bends away
+/// from its tangents the vertices around come along: this part of the motion is extended inward harmonically, as else
+/// thin faces at the boundary would fold.
+class TargetMotion {
+  public:
+    /// @param source, target, constraints kept by reference
+    TargetMotion(const Surface& source, const Target& target, const TargetConstraints& constraints);
+
+    /// Directions of a vertex's two unknowns, of length 1: the second is 0 where a vertex slides, both where it stays.
+    using Directions = std::array<Eigen::Vector3d, 2>;
+    Directions directions(int vertex, const TargetMap& map) const;
+    /// 0 to 2 unknowns a vertex.
+    const std::vector<signed char>& unknowns() const { return unknowns_; }
+
+    /// The map after a motion times a length.
+    /// @param motion #V×3, in the directions of the map's vertices
+    TargetMap moved(const TargetMap& map, const Positions& motion, double length) const;
+
+    const Target& target() const { return target_; }
+    /// Whether nothing is held.
+    bool unheld() const { return constraints_.empty(); }
+
+  private:
+    Positions bent_in(const Positions& bends) const;
+
+    const Target& target_;
+    const TargetConstraints& constraints_;
+    std::vector<signed char> unknowns_;
+    std::vector<int> slide_;                  ///< #V of constraints_.sliding, −1 elsewhere
+    std::unique_ptr<GraphLaplacian> inward_;  ///< null where nothing slides
+};
+
+}  // namespace beltrami

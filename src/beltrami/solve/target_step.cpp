@@ -1,0 +1,159 @@
+#include <beltrami/solve/target_step.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <beltrami/base/error.h>
+#include <beltrami/base/parallel.h>
+
+namespace beltrami {
+
+namespace {
+
+constexpr int kExpectedFactorizations = 20;
+constexpr double kShortest = 1e-6;  // step length below which no step is taken
+constexpr double kShift = 1e-9, kLargestShift = 1e-3;
+constexpr double kShort = 0.3, kNearlyFull = 0.9;  // step lengths at which the damping is raised and lowered
+constexpr double kFirstDamping = 1e-3, kLeastDamping = 1e-5, kDampingFactor = 4;
+constexpr double kNoticeable = 1e-2;
+constexpr int kMostCorners = 4;
+
+std::vector<int> places_of(const std::vector<signed char>& unknowns) {
+    std::vector<int> place(unknowns.size(), -1);
+    int count = 0;
+    for (std::size_t v = 0; v < unknowns.size(); ++v)
+        if (unknowns[v] > 0) place[v] = count++;
+    return place;
+}
+
+ElementSystem system_of(const Operators& operators, const std::vector<int>& place) {
+    std::vector<int> nodes;
+    nodes.reserve(operators.vertices.size());
+    for (const int v : operators.vertices) nodes.push_back(place[v]);
+    const int count = place.empty() ? 0 : *std::max_element(place.begin(), place.end()) + 1;
+    return {operators.offsets, std::move(nodes), count, kExpectedFactorizations, 2};
+}
+
+}  // namespace
+
+TargetStep::TargetStep(const Operators& operators, const TargetMotion& motion)
+    : operators_(operators),
+      motion_(motion),
+      place_(places_of(motion.unknowns())),
+      system_(system_of(operators, place_)),
+      gradient_(system_.unknown_count()) {}
+
+TargetStep::Height TargetStep::height(const TargetEnergy& energy, const TargetMap& map) const {
+    const Positions points = positions_of(map.points), normals = normals_of(map.points);
+    Eigen::Vector2d sum = parallel_sum(operators_.sample_count(), Eigen::Vector2d(0, 0), [&](int first, int last) {
+        Eigen::Vector2d part(0, 0);
+        for (int s = first; s < last; ++s) {
+            const ImageFrame frame = image_frame(operators_, s, points, normals);
+            part[0] += energy.value(frame, s);
+            part[1] += frame.upright ? 0 : 1;
+        }
+        return part;
+    });
+    return {sum[0], static_cast<int>(sum[1])};
+}
+
+void TargetStep::assemble(const TargetEnergy& energy, const TargetMap& map,
+                          const std::vector<TargetMotion::Directions>& ways) {
+    system_.clear();
+    gradient_.setZero();
+    const Positions points = positions_of(map.points), normals = normals_of(map.points);
+    std::array<Complex, 2 * kMostCorners> v;
+    std::array<double, static_cast<std::size_t>(kMostCorners) * (2 * kMostCorners + 1)> hessian;
+    for (int s = 0; s < operators_.sample_count(); ++s) {
+        const ImageFrame frame = image_frame(operators_, s, points, normals);
+        const SampleTerm term = energy.term(frame, s);
+        const auto stencil = operators_.stencil(s);
+        const auto g = operators_.gradient(s);
+        std::size_t entry = 0;
+        for (std::size_t i = 0; i < 2 * stencil.size(); ++i) {
+            const Complex b = frame.along(ways[stencil[i / 2]][i % 2]), to = g[i / 2];
+            v[i] = 0.5 * b * (term.of_dzbar * to + term.of_dz * std::conj(to));
+            if (const int node = place_[stencil[i / 2]]; node >= 0)
+                gradient_[2 * node + static_cast<int>(i % 2)] += std::real(std::conj(term.gradient) * v[i]);
+            for (std::size_t j = 0; j <= i; ++j)
+                hessian[entry++] = term.along * v[i].real() * v[j].real() + term.across * v[i].imag() * v[j].imag();
+        }
+        system_.add(s, {hessian.data(), entry});
+    }
+    const std::vector<signed char>& unknowns = motion_.unknowns();
+    for (std::size_t vertex = 0; vertex < unknowns.size(); ++vertex)  // what does not move across its curve
+        if (unknowns[vertex] == 1) {
+            const int unknown = 2 * place_[vertex];
+            system_.add_to_diagonal(unknown + 1, std::max(system_.diagonal(unknown), 1e-300));
+        }
+}
+
+Positions TargetStep::direction(TargetEnergy& energy, const TargetMap& map) {
+    const Eigen::VectorXd units = local_sizes(operators_, positions_of(map.points));
+    std::vector<TargetMotion::Directions> ways;
+    ways.reserve(place_.size());
+    for (std::size_t v = 0; v < place_.size(); ++v) {
+        TargetMotion::Directions way = motion_.directions(static_cast<int>(v), map);
+        for (Eigen::Vector3d& direction : way) direction *= units[static_cast<Eigen::Index>(v)];
+        ways.push_back(way);
+    }
+    Eigen::VectorXd solution;
+    for (double shift = kShift;; shift *= 100) {
+        assemble(energy, map, ways);
+        system_.scale_diagonal(1 + shift + damping_);
+        try {
+            system_.factorize();
+            solution = system_.solve(-gradient_);
+            break;
+        } catch (const Error& error) {
+            if (error.cause() != Cause::not_solved || shift >= kLargestShift) throw;
+        }
+    }
+    Positions motion = Positions::Zero(static_cast<Eigen::Index>(place_.size()), 3);
+    for (std::size_t v = 0; v < place_.size(); ++v)
+        if (const int node = place_[v]; node >= 0)
+            motion.row(static_cast<Eigen::Index>(v)) =
+                (solution[2 * node] * ways[v][0] + solution[2 * node + 1] * ways[v][1]).transpose();
+    return motion;
+}
+
+TargetStep::Taken TargetStep::step(TargetEnergy& energy, TargetMap& map, double largest) {
+    energy.prepare(operators_, positions_of(map.points), normals_of(map.points));
+    const Height before = height(energy, map);
+    const Positions motion = direction(energy, map);
+    const double longest = motion.rowwise().norm().maxCoeff();
+    Taken taken;
+    taken.energy = before.energy;
+    taken.wanted = longest;
+    for (double length = std::min(1.0, largest / longest); length > kShortest; length *= 0.5) {
+        TargetMap trial = motion_.moved(map, motion, length);
+        const Height after = height(energy, trial);
+        const bool lower = !energy.descends() || after.energy < before.energy;
+        if (!lower || after.flips > before.flips) continue;
+        map = std::move(trial);
+        taken = {length, length * longest, after.energy, before.energy > 0 ? 1 - after.energy / before.energy : 0,
+                 damping_ > kNoticeable};
+        break;
+    }
+    if (energy.descends()) damp(taken.length);
+    return taken;
+}
+
+void TargetStep::damp(double length) {
+    if (length < kShort)
+        damping_ = std::max(kDampingFactor * damping_, kFirstDamping);
+    else if (length > kNearlyFull)
+        damping_ = damping_ / kDampingFactor < kLeastDamping ? 0 : damping_ / kDampingFactor;
+}
+
+int flipped_samples(const Operators& operators, const TargetMap& map) {
+    const Positions points = positions_of(map.points), normals = normals_of(map.points);
+    return parallel_sum(operators.sample_count(), 0, [&](int first, int last) {
+        int count = 0;
+        for (int s = first; s < last; ++s) count += !image_frame(operators, s, points, normals).upright;
+        return count;
+    });
+}
+
+}  // namespace beltrami

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <beltrami/linear/element_system.h>
+#include <beltrami/solve/target_energy.h>
+#include <beltrami/solve/target_motion.h>
+
+namespace beltrami {
+
+/// Gauss-Newton steps of a map along its target: every vertex has up to two unknowns, in units of the size of its
+/// smallest face, so that limbs of any size count alike. A step is halved until it lowers the energy and flips no more
+/// samples; one that has to be cut short is damped as Levenberg and Marquardt do: a needle that is about to flip then
+/// holds up itself and not the others.
+class TargetStep {
+  public:
+    /// @param operators of the source; kept by reference as motion is
+    TargetStep(const Operators& operators, const TargetMotion& motion);
+
+    struct Taken {
+        double length = 0;    ///< part of the step that was taken; 0: none would do
+        double movement = 0;  ///< largest of a vertex, in the target's units
+        double wanted = 0;    ///< the same of the whole step
+        double energy = 0;    ///< after it
+        double fallen = 0;    ///< by which part the energy fell
+        bool damped = false;  ///< the step was shortened in some directions
+    };
+    /// Takes one step.
+    /// @param largest motion of a vertex
+    /// @throw Error not_solved
+    Taken step(TargetEnergy& energy, TargetMap& map, double largest);
+
+    int factorization_count() const { return system_.factorization_count(); }
+
+  private:
+    struct Height {
+        double energy = 0;
+        int flips = 0;
+    };
+    Height height(const TargetEnergy& energy, const TargetMap& map) const;
+    Positions direction(TargetEnergy& energy, const TargetMap& map);
+    void assemble(const TargetEnergy& energy, const TargetMap& map, const std::vector<TargetMotion::Directions>& ways);
+    void damp(double length);
+
+    const Operators& operators_;
+    const TargetMotion& motion_;
+    std::vector<int> place_;  ///< #V among the vertices that move, −1 elsewhere
+    ElementSystem system_;
+    Eigen::VectorXd gradient_;
+    double damping_ = 0;
+};
+
+/// Samples whose image is flipped.
+int flipped_samples(const Operators& operators, const TargetMap& map);
+
+}  // namespace beltrami

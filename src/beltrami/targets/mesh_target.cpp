@@ -1,0 +1,82 @@
+#include <beltrami/targets/mesh_target.h>
+
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include <beltrami/base/error.h>
+#include <beltrami/mesh/topology.h>
+
+namespace beltrami {
+
+namespace {
+
+Positions in_space(const Mesh& mesh) {
+    if (mesh.face_count() == 0) throw Error(Cause::bad_mesh, "the target mesh has no faces");
+    Positions points(mesh.vertex_count(), 3);
+    for (int v = 0; v < mesh.vertex_count(); ++v) points.row(v) = mesh.point(v);
+    return points;
+}
+
+std::vector<int> first_triangles(const std::vector<std::array<int, 3>>& triangles, int vertex_count) {
+    std::vector<int> result(static_cast<std::size_t>(vertex_count), -1);
+    for (std::size_t t = triangles.size(); t-- > 0;)
+        for (const int v : triangles[t]) result[v] = static_cast<int>(t);
+    return result;
+}
+
+}  // namespace
+
+MeshTarget::MeshTarget(Mesh mesh)
+    : mesh_(std::move(mesh)),
+      normals_(vertex_normals(mesh_)),
+      triangles_(as_triangles(mesh_.faces, in_space(mesh_), face_of_triangle_)),
+      locator_(mesh_.positions, triangles_) {
+    triangle_of_vertex_ = first_triangles(triangles_, mesh_.vertex_count());
+}
+
+Eigen::Vector3d MeshTarget::normal(const MeshPoint& place) const {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (int i = 0; i < 3; ++i) sum += place.barycentric[i] * normals_.row(place.vertices[i]).transpose();
+    if (const double length = sum.norm(); length > 0) return sum / length;
+    return face_vector_area(mesh_, place.face).normalized();
+}
+
+Target::Point MeshTarget::at(const MeshPoint& place) const {
+    Point result;
+    for (int i = 0; i < 3; ++i) result.position += place.barycentric[i] * mesh_.point(place.vertices[i]);
+    result.normal = normal(place);
+    result.place = place;
+    return result;
+}
+
+Target::Point MeshTarget::at_vertex(int vertex) const {
+    const int triangle = triangle_of_vertex_[vertex];
+    MeshPoint place{face_of_triangle_[triangle], triangles_[triangle], {}};
+    for (int i = 0; i < 3; ++i) place.barycentric[i] = place.vertices[i] == vertex ? 1 : 0;
+    return at(place);
+}
+
+Target::Point MeshTarget::nearest(const Eigen::Vector3d& point) const {
+    const SurfaceLocator::Place found = locator_.nearest(point);
+    return at({face_of_triangle_[found.triangle], triangles_[found.triangle], found.barycentric});
+}
+
+SlideCurves MeshTarget::boundary() const {
+    SlideCurves curves;
+    for (const std::vector<int>& loop : topology(mesh_).boundary_loops) {
+        Positions points(static_cast<Eigen::Index>(loop.size()), 3);
+        for (std::size_t i = 0; i < loop.size(); ++i) points.row(static_cast<Eigen::Index>(i)) = mesh_.point(loop[i]);
+        curves.push_back(std::make_shared<PolylineCurve>(points, true));
+    }
+    return curves;
+}
+
+std::vector<MeshPoint> places_of(const Target::Points& points) {
+    std::vector<MeshPoint> result;
+    result.reserve(points.size());
+    for (const Target::Point& point : points) result.push_back(point.place);
+    return result;
+}
+
+}  // namespace beltrami
