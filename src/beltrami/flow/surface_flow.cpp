@@ -20,30 +20,29 @@ namespace {
 
 constexpr double kLongestMotion = 0.2;  // of the image's diameter
 constexpr double kWhole = 0.4;          // step length from which a small decrease means that the energy has settled
-constexpr double kHeldUp = 1e-3;        // step length below which another kind of step is tried
+constexpr double kHeldUp = 1e-3;        // step length below which residual steps have come to an end
 /// A step below this part of the image's size that lowers nothing is rounding: the energy is flat there.
 constexpr double kRounding = 1e-6;
 
 /// The step that is to be taken next where the scheme is automatic: barriers need upright samples; where residual steps
-/// are held up perturbation steps are taken until nothing is flipped.
+/// end with flipped ones perturbation steps are taken until nothing is flipped.
 class Scheme {
   public:
     explicit Scheme(FlowScheme wanted) : wanted_(wanted) {}
     FlowScheme now(int flips) const {
         if (wanted_ != FlowScheme::automatic) return wanted_;
         if (flips == 0) return FlowScheme::barrier;
-        return held_up_ ? FlowScheme::perturbation : FlowScheme::residual;
+        return turned_ ? FlowScheme::perturbation : FlowScheme::residual;
     }
-    /// Whether another kind of step is left after one of this length.
-    bool turns(double length) {
-        if (wanted_ != FlowScheme::automatic || held_up_ || length > kHeldUp) return false;
-        held_up_ = true;
-        return true;
+    /// Whether another kind of step is left after those taken have come to an end.
+    bool turns(int flips) {
+        if (wanted_ != FlowScheme::automatic || flips == 0 || turned_) return false;
+        return turned_ = true;
     }
 
   private:
     FlowScheme wanted_;
-    bool held_up_ = false;
+    bool turned_ = false;
 };
 
 void require_start(const Surface& source, const TargetConstraints& constraints, const TargetMap& start) {
@@ -84,15 +83,9 @@ class Flow {
                                                    std::to_string(flips_) + " samples are flipped");
             if (scheme != of_energy) energy = energy_of(of_energy = scheme);
             const TargetStep::Taken taken = take(*energy, scheme, mu);
-            if (flips_ > 0 && scheme_.turns(taken.length)) continue;
-            if (taken.length == 0) {
-                if (taken.wanted < kRounding * size_) result_.termination = Termination::converged;
-                break;
-            }
-            if (settled(*energy, taken)) {
-                result_.termination = Termination::converged;
-                break;
-            }
+            if (!ended(*energy, taken) || scheme_.turns(flips_)) continue;
+            if (taken.length > 0 || taken.wanted < kRounding * size_) result_.termination = Termination::converged;
+            break;
         }
         return finish(mu);
     }
@@ -120,9 +113,20 @@ class Flow {
         return taken;
     }
 
-    bool settled(const TargetEnergy& energy, const TargetStep::Taken& taken) const {
+    bool ended(const TargetEnergy& energy, const TargetStep::Taken& taken) const {
+        if (taken.length == 0 || (flips_ > 0 && energy.descends() && taken.length < kHeldUp)) return true;
         if (taken.movement < options_.tolerance * size_) return true;
-        return energy.descends() && taken.length > kWhole && !taken.damped && taken.fallen < options_.least_decrease;
+        if (taken.length < kWhole || taken.damped) return false;
+        return (energy.descends() && taken.fallen < options_.least_decrease) || error_settled();
+    }
+
+    /// Steps go on along conformal maps where nothing is held, and lower energies that those change: then it is the
+    /// error of the centred map that settles.
+    bool error_settled() const {
+        const std::vector<SurfaceFlowIteration>& history = result_.history;
+        if (!motion_.unheld() || flips_ > 0 || history.size() < 2) return false;
+        const double now = history.back().squared_error, before = history[history.size() - 2].squared_error;
+        return std::abs(now - before) < options_.least_decrease * before;
     }
 
     /// To the representative that is centred, unless that would flip something.

@@ -32,9 +32,9 @@ struct SurfaceFlowIteration {
 struct SurfaceFlowOptions {
     /// Stop when a step moves no vertex by more, as part of the diameter of the image.
     double tolerance = 1e-8;
-    /// Stop when a whole step lowers its energy by less than this part; 0: never. Maps that hold no vertex may drift
-    /// for ever along conformal maps of the target.
-    double least_decrease = 1e-3;
+    /// Stop when a step that is not cut short lowers its energy by less than this part, or changes the squared error by
+    /// less where no vertex is held: such maps may drift for ever along conformal maps of the target. 0: never.
+    double least_decrease = 1e-4;
     int max_iterations = 100;  ///< linear solves
     FlowScheme scheme = FlowScheme::automatic;
     /// Called after every step, numbered from 1, with the map as it stands; returning false cancels (Error cancelled).

@@ -138,6 +138,23 @@ FlatTorus flat_torus(const Surface& surface) {
     return torus;
 }
 
+std::vector<double> flat_areas(const FlatTorus& torus, const FaceList& faces) {
+    std::vector<double> areas;
+    areas.reserve(static_cast<std::size_t>(faces.size()));
+    const auto place = [&](int corner) {
+        const auto row = torus.layout.points.row(torus.layout.corners[corner]);
+        return Complex(row[0], row[1]);
+    };
+    for (int f = 0; f < faces.size(); ++f) {
+        const int first = faces.first_corner(f), count = faces.degree(f);
+        double twice = 0;
+        for (int i = 1; i + 1 < count; ++i)
+            twice += std::imag(std::conj(place(first + i) - place(first)) * (place(first + i + 1) - place(first)));
+        areas.push_back(0.5 * std::abs(twice));
+    }
+    return areas;
+}
+
 std::vector<MeshPoint> places_on_torus(const FlatTorus& torus, const Positions& lattice_points) {
     const detail::DelaunayForms& forms = *torus.forms;
     const Eigen::Matrix2d dual = dual_of(torus.generators);

@@ -46,6 +46,10 @@ struct FlatTorus {
 ///        all the same, by rounding
 FlatTorus flat_torus(const Surface& surface);
 
+/// Areas of the samples' faces in the flat metric, |φ| of its quadratic differential dz² (triangles), by which the map
+/// of least L² norm of |μ| is extremal. #F, positive; where an edge was flipped a face may count by its mirror image.
+std::vector<double> flat_areas(const FlatTorus& torus, const FaceList& faces);
+
 /// Places on the surface of points of the plane modulo the lattice, exactly on its faces in its own metric.
 /// @param lattice_points n×2 coordinates (α, β)
 std::vector<MeshPoint> places_on_torus(const FlatTorus& torus, const Positions& lattice_points);

@@ -27,6 +27,7 @@ std::unique_ptr<GraphLaplacian> graph_of(const Surface& source, const std::vecto
         for (std::size_t i = 0; i < face.size(); ++i) edges.push_back({face[i], face[(i + 1) % face.size()]});
     }
     std::vector<char> held;
+    held.reserve(unknowns.size());
     for (const signed char count : unknowns) held.push_back(count < 2);
     const std::vector<double> weights(edges.size(), 1.0);
     auto graph = std::make_unique<GraphLaplacian>(std::move(edges), held);

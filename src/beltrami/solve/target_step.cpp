@@ -132,8 +132,11 @@ TargetStep::Taken TargetStep::step(TargetEnergy& energy, TargetMap& map, double 
         const bool lower = !energy.descends() || after.energy < before.energy;
         if (!lower || after.flips > before.flips) continue;
         map = std::move(trial);
-        taken = {length, length * longest, after.energy, before.energy > 0 ? 1 - after.energy / before.energy : 0,
-                 damping_ > kNoticeable};
+        taken.length = length;
+        taken.movement = length * longest;
+        taken.energy = after.energy;
+        taken.fallen = before.energy > 0 ? 1 - after.energy / before.energy : 0;
+        taken.damped = damping_ > kNoticeable;
         break;
     }
     if (energy.descends()) damp(taken.length);

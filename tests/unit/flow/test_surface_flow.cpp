@@ -2,11 +2,19 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include <beltrami/base/error.h>
+#include <beltrami/base/random.h>
 #include <beltrami/flow/surface_flow.h>
+#include <beltrami/forms/flat_torus.h>
+#include <beltrami/generate/grids.h>
 #include <beltrami/generate/sphere.h>
 #include <beltrami/operators/frames.h>
+#include <beltrami/solve/target_step.h>
+#include <beltrami/sphere/moebius_fit.h>
+#include <beltrami/targets/mesh_target.h>
+#include <beltrami/targets/parametric_target.h>
 #include <beltrami/targets/simple_targets.h>
 
 #include "problems/prescribed_coefficients.h"
@@ -169,6 +177,175 @@ TEST(SurfaceFlow, RefusesWhatItCannotUse) {
         surface_flow(problem.source, problem.target, none, problem.constraints,
                      target_map(problem.source, problem.target, problem.constraints, folded), by(FlowScheme::barrier)),
         Error);
+}
+
+/// A capsule that is bent so far that its projection from the centroid overlaps.
+Mesh bent_capsule(int levels) {
+    Mesh mesh = octahedral_sphere(levels);
+    const double length = 4, bend = 1.4, radius = length / bend;
+    for (int v = 0; v < mesh.vertex_count(); ++v) {
+        const Eigen::Vector3d x = mesh.point(v);
+        const double angle = bend * x.z();
+        mesh.positions.row(v) << (radius + x.x()) * std::cos(angle) - radius, x.y(), (radius + x.x()) * std::sin(angle);
+    }
+    return mesh;
+}
+
+TEST(SurfaceFlow, UnfoldsAnOverlappingProjection) {
+    const Mesh mesh = bent_capsule(4);
+    const Surface source(mesh);
+    Positions start = mesh.positions;
+    start.rowwise() -= Eigen::RowVector3d(mesh.positions.colwise().mean());
+    const SphereTarget sphere;
+    const TargetMap folded = target_map(source, sphere, {}, start);
+    ASSERT_GT(flipped_samples(source.operators, folded), 100);
+    const Eigen::VectorXcd conformal = Eigen::VectorXcd::Zero(source.operators.sample_count());
+    const SurfaceFlowMap flow = surface_flow(source, sphere, conformal, {}, folded);
+    EXPECT_EQ(flow.termination, Termination::converged);
+    EXPECT_TRUE(flow.distortion.flipped.empty());
+    EXPECT_LT(flow.distortion.mean, 0.08);
+    EXPECT_LT(flow.distortion.max, 0.3);
+    EXPECT_EQ(flow.history.back().flips, 0);
+    EXPECT_EQ(flow.history.back().scheme, FlowScheme::barrier);
+}
+
+/// tan θ/2 = tan β/2 exp ∫ (√(cos² + c² sin²) − 1)/sin for the conformal map of the spheroid of half-axes 1, 1, c.
+TEST(SurfaceFlow, IsOfSecondOrderOnASpheroid) {
+    constexpr double c = 3;
+    const auto exact = [&](double beta) {
+        constexpr int kSteps = 2000;
+        double sum = 0;
+        for (int i = 0; i < kSteps; ++i) {
+            const double b = std::numbers::pi / 2 + (beta - std::numbers::pi / 2) * (i + 0.5) / kSteps;
+            sum += (std::hypot(std::cos(b), c * std::sin(b)) - 1) / std::sin(b);
+        }
+        sum *= (beta - std::numbers::pi / 2) / kSteps;
+        return 2 * std::atan(std::tan(beta / 2) * std::exp(sum));
+    };
+    std::array<double, 2> errors{};
+    for (int i = 0; i < 2; ++i) {
+        const Mesh sphere = octahedral_sphere(3 + i);
+        Mesh mesh = sphere;
+        mesh.positions.col(2) *= c;
+        const Surface source(mesh);
+        Positions wanted = sphere.positions;
+        for (int v = 0; v < sphere.vertex_count(); ++v) {
+            const Eigen::Vector3d x = sphere.point(v);
+            const double across = std::hypot(x.x(), x.y());
+            if (across < 1e-12) continue;
+            const double theta = exact(std::atan2(across, x.z()));
+            wanted.row(v) << x.x() / across * std::sin(theta), x.y() / across * std::sin(theta), std::cos(theta);
+        }
+        const SphereTarget target;
+        SurfaceFlowOptions options;
+        options.least_decrease = 1e-8;
+        const SurfaceFlowMap flow =
+            surface_flow(source, target, Eigen::VectorXcd::Zero(source.operators.sample_count()), {},
+                         target_map(source, target, {}, sphere.positions), options);
+        const Positions found = positions_of(flow.map.points);
+        const Positions turned = (best_rotation(found, wanted) * found.transpose()).transpose();
+        errors[i] = std::sqrt((turned - wanted).squaredNorm() / static_cast<double>(wanted.rows()));
+    }
+    EXPECT_LT(errors[1], 0.01);
+    EXPECT_GT(std::log2(errors[0] / errors[1]), 1.7);
+}
+
+/// A map of a cylinder to itself whose rims turn along themselves is found again from its coefficient; one vertex is
+/// held, as turning the cylinder is conformal.
+TEST(SurfaceFlow, FindsAMapOfACylinderAgainWhoseRimsSlide) {
+    const Mesh mesh = cylinder(1, 2, 48, 16);
+    const Surface source(mesh);
+    const ParametricTarget target = cylinder_target(1, 2);
+    Target::Points wanted;
+    for (int v = 0; v < mesh.vertex_count(); ++v) {
+        const Target::Point at = target.nearest(mesh.point(v));
+        const double u = at.parameters.x(), z = at.parameters.y();
+        wanted.push_back(target.at(u + 0.03 * std::sin(4 * std::numbers::pi * u) * (1 + z) / 2,
+                                   z + 0.2 * std::sin(std::numbers::pi * z / 2) * std::cos(2 * std::numbers::pi * u)));
+    }
+    const Eigen::VectorXcd mu = beltrami_coefficient(source.operators, positions_of(wanted), normals_of(wanted));
+    TargetConstraints constraints;
+    constraints.fixed = {source.topology.boundary_loops[0][0]};
+    Positions start = mesh.positions;
+    start.row(constraints.fixed[0]) = wanted[constraints.fixed[0]].position;
+    slide_boundary(constraints, source, target, start);
+    SurfaceFlowOptions options;
+    options.least_decrease = 0;
+    const SurfaceFlowMap flow =
+        surface_flow(source, target, mu, constraints, target_map(source, target, constraints, start), options);
+    EXPECT_EQ(flow.termination, Termination::converged);
+    EXPECT_LT(flow.iterations, 15);
+    EXPECT_LT((positions_of(flow.map.points) - positions_of(wanted)).rowwise().norm().maxCoeff(), 1e-7);
+}
+
+/// Every vertex of a map to a mesh is a place of it, and the map of one sphere to another mesh of it is nearly
+/// conformal.
+TEST(SurfaceFlow, StaysOnAMesh) {
+    const Surface source(octahedral_sphere(3));
+    const Mesh onto = icosahedral_sphere(4);
+    const MeshTarget target(onto);
+    Positions start = bench::stretched_sphere(source.mesh.positions, {0.2, 0.1});
+    const SurfaceFlowMap flow = surface_flow(source, target, Eigen::VectorXcd::Zero(source.operators.sample_count()),
+                                             {}, target_map(source, target, {}, start));
+    EXPECT_TRUE(flow.distortion.flipped.empty());
+    EXPECT_GT(distortion(source.operators, start, start).mean, 0.2);
+    EXPECT_LT(flow.distortion.mean, 0.06);
+    for (const Target::Point& point : flow.map.points) {
+        Eigen::Vector3d there = Eigen::Vector3d::Zero();
+        for (int i = 0; i < 3; ++i) there += point.place.barycentric[i] * onto.point(point.place.vertices[i]);
+        EXPECT_LT((there - point.position).norm(), 1e-14);
+    }
+}
+
+/// The torus of radii 2, 1 in a jittered grid, onto the first modified torus, whose extremal map has k = .0929.
+struct TorusProblem {
+    ParametricTarget target = first_modified_torus();
+    Mesh mesh = torus(2, 1, 60, 30);
+    TargetMap start;
+
+    TorusProblem() {
+        const ParametricTarget round = torus_target(2, 1);
+        Random random(1);
+        for (int i = 0; i < 60; ++i)
+            for (int j = 0; j < 30; ++j) {
+                const double u = (i + random.uniform(-0.2, 0.2)) / 60, v = (j + random.uniform(-0.2, 0.2)) / 30;
+                mesh.positions.row(30 * i + j) = round.at(u, v).position;
+                start.points.push_back(target.at(u, v));
+            }
+    }
+};
+
+TEST(LeastLpMap, EvensOutTheDistortionOfTori) {
+    const TorusProblem problem;
+    const Surface source(problem.mesh);
+    const auto spread = [&](double p, const std::vector<double>& weights) {
+        const SurfaceFlowMap flow = least_lp_map(source, problem.target, {p, weights}, {}, problem.start);
+        EXPECT_TRUE(flow.distortion.flipped.empty());
+        EXPECT_EQ(flow.termination, Termination::converged);
+        return std::array<double, 2>{flow.distortion.mean, flow.distortion.standard_deviation};
+    };
+    const auto [mean2, deviation2] = spread(2, {});
+    const auto [mean4, deviation4] = spread(4, {});
+    const auto [mean8, deviation8] = spread(8, {});
+    EXPECT_NEAR(mean2, 0.061, 0.003);
+    EXPECT_NEAR(mean4, 0.080, 0.003);
+    EXPECT_NEAR(mean8, 0.088, 0.003);
+    EXPECT_GT(deviation2, 0.035);
+    EXPECT_LT(deviation4, 0.022);
+    EXPECT_LT(deviation8, 0.012);
+    // By the area |φ| of the flat metric p = 2 is the extremal map.
+    const FlatTorus flat = flat_torus(source);
+    const auto [mean, deviation] = spread(2, flat_areas(flat, source.mesh.faces));
+    EXPECT_NEAR(mean, 0.0929, 0.003);
+    EXPECT_LT(deviation, 0.01);
+}
+
+TEST(LeastLpMap, RefusesWhatItCannotUse) {
+    const TorusProblem problem;
+    const Surface source(problem.mesh);
+    for (const LpNorm& norm :
+         {LpNorm{1, {}}, LpNorm{2, {1, 2}}, LpNorm{2, std::vector<double>(source.operators.weights.size(), 0)}})
+        EXPECT_THROW(least_lp_map(source, problem.target, norm, {}, problem.start), Error);
 }
 
 TEST(Frames, StereographicCoefficientsNeedTheUnitSphere) {
