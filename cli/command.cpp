@@ -9,7 +9,9 @@
 #include <beltrami/base/error.h>
 #include <beltrami/base/parallel.h>
 #include <beltrami/io/atomic_file.h>
+#include <beltrami/io/read_file.h>
 #include <beltrami/io/read_mesh.h>
+#include <beltrami/report/page.h>
 #include <beltrami/report/record_json.h>
 #include <beltrami/report/record_text.h>
 
@@ -47,7 +49,16 @@ int exit_code(Cause cause) {
 
 void CommonOptions::add_to(CLI::App& app, bool has_map) {
     app.add_option("--json", json, "write the record as JSON to FILE, or to standard output with -")->type_name("FILE");
-    if (has_map) app.add_option("--report", report, "write a self-contained HTML page to FILE")->type_name("FILE.html");
+    if (has_map) {
+        CLI::Option* page =
+            app.add_option("--report", report, "write a self-contained HTML page to FILE")->type_name("FILE.html");
+        app.add_option(
+               "--texture", texture,
+               "lay an image (PNG, JPEG, WebP or GIF) over the page's figures: over the image of the map, or the "
+               "source, whichever lies in the plane; in space around its middle")
+            ->needs(page)
+            ->type_name("FILE");
+    }
     app.add_flag("--quiet", quiet, "print nothing but errors");
     app.add_option_function<int>(
            "--threads", [](int count) { set_thread_count(count); }, "use N threads; the result does not depend on it")
@@ -55,7 +66,9 @@ void CommonOptions::add_to(CLI::App& app, bool has_map) {
         ->check(CLI::Range(1, 1024));
 }
 
-void CommonOptions::check_files(const std::vector<NamedFile>& inputs, std::vector<NamedFile> outputs) const {
+void CommonOptions::check_files(std::vector<NamedFile> inputs, std::vector<NamedFile> outputs) const {
+    if (!texture.empty()) require_texture(read_file(texture));
+    inputs.push_back({"--texture", texture});
     outputs.push_back({"--json", json});
     outputs.push_back({"--report", report});
     cli::check_files(inputs, outputs);

@@ -14,13 +14,14 @@ namespace beltrami::cli {
 
 /// What every subcommand offers: where the record goes, how much is said, how many threads.
 struct CommonOptions {
-    std::string json, report;
+    std::string json, report, texture;
     bool quiet = false;
 
     /// @param has_map whether there is a map for a page (--report)
     void add_to(CLI::App& app, bool has_map = true);
-    /// check_files() of the inputs and the outputs, --json and --report among these.
-    void check_files(const std::vector<NamedFile>& inputs, std::vector<NamedFile> outputs = {}) const;
+    /// check_files() of the inputs and the outputs, --texture, --json and --report among these.
+    /// @throw Error unreadable or bad_option too, if --texture is no image
+    void check_files(std::vector<NamedFile> inputs, std::vector<NamedFile> outputs = {}) const;
     /// Whether anything beyond the terminal wants the record.
     bool wants_record() const { return !json.empty() || !report.empty(); }
     /// Whether words may go to standard output (the record may own it).

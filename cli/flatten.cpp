@@ -71,7 +71,7 @@ class Flatten final : public Command {
         const Distortion d = distortion(source.operators, disk_ ? map : Eigen::VectorXcd(map / input.unit));
         record.map = map_record(d);
         output_.write(source.mesh, map, d, input.attributes, input.unit);
-        write_page(common_.report, source.mesh, {{"conformal", positions_of(map), d.face_abs_mu}}, {}, record, source_);
+        write_page(common_, source.mesh, {{"conformal", positions_of(map), d.face_abs_mu}}, {}, record, source_);
         finish(record, common_, "conformal", {output_.path(), common_.json, common_.report});
         return 0;
     }

@@ -225,8 +225,7 @@ class Flow final : public Command {
     void close(const Surface& source, const Eigen::VectorXcd& map, const Distortion& measured, Record& record) const {
         record.flow->fits = coefficient_fits(record.flow->error);
         record.map = map_record(measured);
-        write_page(common_.report, source.mesh, {{"flow", positions_of(map), measured.face_abs_mu}}, {}, record,
-                   source_);
+        write_page(common_, source.mesh, {{"flow", positions_of(map), measured.face_abs_mu}}, {}, record, source_);
         finish(record, common_, "flow", {output_.path(), onto_.places_file(), common_.json, common_.report});
     }
 

@@ -105,7 +105,8 @@ class Grid final : public Command {
         grid.mesh.positions *= input.unit;
         write_grid(grid);
         if (!places_.empty()) write_places(places_, grid.parents);
-        write_page(common_.report, mapped.mesh, std::move(result.pages), result.history, record, source_);
+        if (!common_.report.empty()) show_differential(mapped, result);
+        write_page(common_, mapped.mesh, std::move(result.pages), result.history, record, source_);
         finish(record, common_, map_, {output_, places_, common_.json, common_.report});
         return 0;
     }

@@ -115,7 +115,8 @@ class Map final : public Command {
         output_.write(mapped.mesh, unit * result.map, result.distortion, attributes_of(result), input_.unit);
         phi_.write(mapped, result);
         const std::string name = result.pages[0].name;
-        write_page(common_.report, mapped.mesh, std::move(result.pages), result.history, record, source_);
+        if (!common_.report.empty()) show_differential(mapped, result);
+        write_page(common_, mapped.mesh, std::move(result.pages), result.history, record, source_);
         finish(record, common_, name, {output_.path(), phi_.path(), common_.json, common_.report});
         return 0;
     }
@@ -160,7 +161,7 @@ class Map final : public Command {
             record);
         const Surface& mapped = result.split ? *result.split : source;
         output_.write(mapped.mesh, units[0] * result.map, result.distortion, attributes_of(result), input_.unit);
-        write_page(common_.report, mapped.mesh, std::move(result.pages), {}, record, source_);
+        write_page(common_, mapped.mesh, std::move(result.pages), {}, record, source_);
         if (common_.may_print())
             for (const ComponentRecord& part : record.components)
                 fmt::print("{} from face {}: {}{}, {}\n", counted(part.faces, "face", "faces"), part.first_face,
@@ -246,7 +247,8 @@ class Map final : public Command {
         onto_.write_places(result.places);
         phi_.write(mapped, result);
         const std::string name = result.pages[0].name;
-        write_page(common_.report, mapped.mesh, std::move(result.pages), result.history, record, source_);
+        if (!common_.report.empty()) show_differential(mapped, result);
+        write_page(common_, mapped.mesh, std::move(result.pages), result.history, record, source_);
         finish(record, common_, name, {output_.path(), onto_.places_file(), phi_.path(), common_.json, common_.report});
         return 0;
     }

@@ -72,6 +72,11 @@ MethodResult finished(ExtremalMap result, const Surface& source, double start, R
 
 }  // namespace
 
+void show_differential(const Surface& mapped, MethodResult& result) {
+    if (result.phi.size() == 0 || result.differential.zero() || mapped.metric) return;
+    result.pages[0].differential = page_differential(mapped, result.phi, result.differential);
+}
+
 const std::vector<std::string>& baseline_names() {
     static const std::vector<std::string> names{"harmonic", "tutte", "mean-value",  "lscm",
                                                 "arap",     "mips",  "alternation", "qc"};

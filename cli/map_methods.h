@@ -26,6 +26,9 @@ struct MethodResult {
     Eigen::VectorXcd phi;                ///< #S its values, as the c-step had them; of others empty
 };
 
+/// Lets the page of an extremal map show its φ. Nothing of other maps, nor in a metric in which the mesh is not drawn.
+void show_differential(const Surface& mapped, MethodResult& result);
+
 /// The extremal map or that of least maximum. Fills the record's map, solve, homotopy, corners, split, least_maximum
 /// and warnings.
 /// @param start      when the clock was started

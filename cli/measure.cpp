@@ -83,8 +83,8 @@ class Measure final : public Command {
             warn_of(WarningKind::flipped_faces, other, "face is flipped", "faces are flipped", record.warnings);
         }
         warn_of(WarningKind::degenerate_faces, d.degenerate, "face collapses", "faces collapse", record.warnings);
-        write_page(common_.report, page_mesh_ ? *page_mesh_ : source, {{"measured", image_positions_, d.face_abs_mu}},
-                   {}, record, source_);
+        write_page(common_, page_mesh_ ? *page_mesh_ : source, {{"measured", image_positions_, d.face_abs_mu}}, {},
+                   record, source_);
         finish(record, common_, "measured", {common_.json, common_.report});
         return 0;
     }

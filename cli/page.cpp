@@ -1,6 +1,7 @@
 #include "page.h"
 
 #include <beltrami/io/atomic_file.h>
+#include <beltrami/io/read_file.h>
 #include <beltrami/report/record_json.h>
 
 namespace beltrami::cli {
@@ -12,16 +13,17 @@ Positions positions_of(const Eigen::VectorXcd& map) {
     return positions;
 }
 
-void write_page(const std::string& path, const Mesh& source, std::vector<PageMap> maps,
+void write_page(const CommonOptions& common, const Mesh& source, std::vector<PageMap> maps,
                 const std::vector<Iteration>& history, const Record& record, const std::string& title) {
-    if (path.empty()) return;
+    if (common.report.empty()) return;
     PageContent content{source, std::move(maps), {}, {}, {}, to_json(record), title};
+    if (!common.texture.empty()) content.texture = read_file(common.texture);
     for (const Iteration& iteration : history) {
         content.history_k.push_back(iteration.k);
         content.history_change.push_back(iteration.change);
         content.history_largest.push_back(iteration.largest);
     }
-    write_atomically(path, render_page(content));
+    write_atomically(common.report, render_page(content));
 }
 
 }  // namespace beltrami::cli

@@ -113,8 +113,8 @@ class Register final : public Command {
         if (record_.registration->largest_distance) *record_.registration->largest_distance *= target.unit;
         write_at(output_, source.mesh.faces, target.unit * found.positions, found.map.distortion, source.attributes);
         if (!places_.empty()) write_places(places_, target.mesh, found.places);
-        write_page(common_.report, source.mesh, {{"registration", found.positions, found.map.distortion.face_abs_mu}},
-                   {}, record_, source_);
+        write_page(common_, source.mesh, {{"registration", found.positions, found.map.distortion.face_abs_mu}}, {},
+                   record_, source_);
         finish(record_, common_, "registration", {output_, places_, common_.json, common_.report});
     }
 

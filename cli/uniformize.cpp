@@ -144,7 +144,7 @@ class Uniformize final : public Command {
                                         {Things::faces, d.flipped}});
         record_.map = map_record(d);
         output_.write_layout(source.mesh, found.layout, d, input.attributes, input.unit);
-        write_page(common_.report, cut_along_seams(source.mesh, found.layout),
+        write_page(common_, cut_along_seams(source.mesh, found.layout),
                    {{"conformal", found.layout.points, d.face_abs_mu}}, {}, record_, source_);
         finish(record_, common_, "conformal", {output_.path(), common_.json, common_.report});
     }
@@ -174,7 +174,7 @@ class Uniformize final : public Command {
     }
 
     void conclude(const Surface& source, const Positions& map, const Distortion& d, const char* method) {
-        write_page(common_.report, source.mesh, {{method, map, d.face_abs_mu}}, {}, record_, source_);
+        write_page(common_, source.mesh, {{method, map, d.face_abs_mu}}, {}, record_, source_);
         finish(record_, common_, method, {output_.path(), common_.json, common_.report});
     }
 

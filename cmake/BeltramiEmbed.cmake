@@ -1,22 +1,24 @@
-# Embeds a file in <target> as an array of bytes, beltrami::<symbol> and beltrami::<symbol>Size. Where it says
-# @name.ext@, the further file of that name is put in. All are read again when one of them changes.
-function(beltrami_embed target symbol file)
-    file(READ ${file} bytes HEX)
-    foreach(part IN LISTS ARGN)
-        file(READ ${part} part_bytes HEX)
-        cmake_path(GET part FILENAME name)
-        string(HEX "@${name}@" mark)
-        string(REPLACE "${mark}" "${part_bytes}" bytes "${bytes}")
-    endforeach()
+# beltrami_embed(<target> <symbol> <file>): embeds a file in <target> as an array of bytes, beltrami::<symbol> and
+# beltrami::<symbol>Size. The file may be one that the build makes. As a script (-DFILE, -DSYMBOL, -DOUT) it writes the array.
+if(CMAKE_SCRIPT_MODE_FILE)
+    file(READ ${FILE} bytes HEX)
     string(REGEX REPLACE "(..)" "0x\\1," bytes "${bytes}")
-    file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${symbol}.cpp @ONLY CONTENT "#include <cstddef>
+    file(WRITE ${OUT} "#include <cstddef>
 namespace beltrami {
-extern const unsigned char @symbol@[];
-extern const std::size_t @symbol@Size;
-const unsigned char @symbol@[] = {@bytes@};
-const std::size_t @symbol@Size = sizeof(@symbol@);
+extern const unsigned char ${SYMBOL}[];
+extern const std::size_t ${SYMBOL}Size;
+const unsigned char ${SYMBOL}[] = {${bytes}};
+const std::size_t ${SYMBOL}Size = sizeof(${SYMBOL});
 }  // namespace beltrami
 ")
-    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file} ${ARGN})
-    target_sources(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/${symbol}.cpp)
+    return()
+endif()
+
+set(BELTRAMI_EMBED_SCRIPT ${CMAKE_CURRENT_LIST_FILE})
+function(beltrami_embed target symbol file)
+    set(source ${CMAKE_CURRENT_BINARY_DIR}/${symbol}.cpp)
+    add_custom_command(OUTPUT ${source} VERBATIM DEPENDS ${file} ${BELTRAMI_EMBED_SCRIPT} COMMENT "Embedding ${file}"
+        COMMAND ${CMAKE_COMMAND} -DFILE=${file} -DSYMBOL=${symbol} -DOUT=${source} -P ${BELTRAMI_EMBED_SCRIPT})
+    set_source_files_properties(${source} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+    target_sources(${target} PRIVATE ${source})
 endfunction()

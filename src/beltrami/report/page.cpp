@@ -7,16 +7,18 @@
 #include <cstdint>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <numeric>
 #include <string_view>
 
 #include <beltrami/base/error.h>
+#include <beltrami/locate/corner_weights.h>
 #include <beltrami/report/drawing.h>
 #include <beltrami/report/page.h>
 
 namespace beltrami {
 
-// page.html.in, turned into an array by the build.
+// The page without its data, bundled from page/ and turned into an array by the build.
 extern const unsigned char kPageTemplate[];
 extern const std::size_t kPageTemplateSize;
 
@@ -26,15 +28,22 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kHistogramBins = 64;
 
-/// Bytes of 32-bit values, little-endian whatever the machine, in base64.
+/// Bytes and 16- and 32-bit values, little-endian whatever the machine, in base64.
 class Base64 {
   public:
-    explicit Base64(std::size_t values) { text_.reserve((4 * values + 2) / 3 * 4); }
+    explicit Base64(std::size_t bytes) { text_.reserve((bytes + 2) / 3 * 4); }
 
     void add(std::uint32_t value) {
         for (int shift = 0; shift < 32; shift += 8) add_byte((value >> shift) & 0xffU);
     }
     void add(float value) { add(std::bit_cast<std::uint32_t>(value)); }
+    void add(std::uint16_t value) {
+        add_byte(value & 0xffU);
+        add_byte(value >> 8U);
+    }
+    void add(std::string_view bytes) {
+        for (const char byte : bytes) add_byte(static_cast<unsigned char>(byte));
+    }
 
     std::string finish() {
         const int missing = (3 - held_) % 3;
@@ -73,13 +82,73 @@ Json encode_positions(const Positions& positions) {
     double radius = 0.5 * (high - low).maxCoeff();
     if (!(radius > 0.0) || !std::isfinite(radius)) radius = 1.0;
     const Eigen::RowVectorXd centre = 0.5 * (low + high);
-    Base64 encoded(static_cast<std::size_t>(positions.rows() * dimension));
+    Base64 encoded(sizeof(float) * static_cast<std::size_t>(positions.rows() * dimension));
     for (Eigen::Index row = 0; row < positions.rows(); ++row) {
         for (Eigen::Index i = 0; i < dimension; ++i) {
             encoded.add(static_cast<float>((positions(row, i) - centre[i]) / radius));
         }
     }
-    return {{"dimension", dimension}, {"coordinates", encoded.finish()}};
+    return {{"dimension", dimension}, {"radius", radius}, {"coordinates", encoded.finish()}};
+}
+
+/// Angles of trajectories, of each drawn triangle from its first edge, in units of π/65535; 65535 where there is none.
+/// @param positions of the drawn vertices
+std::string encode_directions(const Mesh& mesh, const Drawing& drawing, const Positions& positions,
+                              const Eigen::VectorXd& angles) {
+    constexpr std::uint16_t none = 0xffff;
+    const auto point = [&](int vertex) {
+        Eigen::Vector3d at = Eigen::Vector3d::Zero();
+        at.head(positions.cols()) = positions.row(vertex).transpose();
+        return at;
+    };
+    Base64 encoded(sizeof(std::uint16_t) * drawing.triangles.size());
+    for (std::size_t t = 0; t < drawing.triangles.size(); ++t) {
+        const int face = drawing.faces[t];
+        const Eigen::Vector3d along = (mesh.point(mesh.faces[face][1]) - mesh.point(mesh.faces[face][0])).normalized();
+        const Eigen::Vector3d across = face_vector_area(mesh, face).normalized().cross(along);
+        const Eigen::Vector3d direction = std::cos(angles[face]) * along + std::sin(angles[face]) * across;
+        const auto& [a, b, c] = drawing.triangles[t];
+        const Eigen::Vector3d first = (point(b) - point(a)).normalized();
+        const Eigen::Vector3d side = point(c) - point(a);
+        const Eigen::Vector3d second = (side - side.dot(first) * first).normalized();
+        double angle = std::atan2(direction.dot(second), direction.dot(first));
+        if (angle < 0.0) angle += std::numbers::pi;
+        encoded.add(std::isfinite(angle)
+                        ? static_cast<std::uint16_t>(std::min(angle / std::numbers::pi * none, none - 1.0))
+                        : none);
+    }
+    return encoded.finish();
+}
+
+/// Zeros and poles by the drawn vertices around them.
+Json critical_points(const Mesh& mesh, const Drawing& drawing, const std::vector<CriticalPoint>& points) {
+    Json list = Json::array();
+    for (const CriticalPoint& point : points) {
+        std::vector<int> vertices;
+        for (const int vertex : mesh.faces[point.place.face])
+            vertices.push_back(drawing.coarsened() ? drawing.drawn_vertex[static_cast<std::size_t>(vertex)] : vertex);
+        list.push_back({{"order", point.order},
+                        {"on_boundary", point.on_boundary},
+                        {"vertices", vertices},
+                        {"weights", corner_weights(mesh, point.place)}});
+    }
+    return list;
+}
+
+/// Which kind of image that browsers show the bytes are; null if none.
+const char* image_kind(std::string_view bytes) {
+    if (bytes.starts_with("\x89PNG\r\n\x1a\n")) return "png";
+    if (bytes.starts_with("\xff\xd8\xff")) return "jpeg";
+    if (bytes.starts_with("RIFF") && bytes.find("WEBP") == 8) return "webp";
+    return bytes.starts_with("GIF8") ? "gif" : nullptr;
+}
+
+/// An image as an address that needs no fetching.
+std::string data_address(const std::string& bytes) {
+    require_texture(bytes);
+    Base64 encoded(bytes.size());
+    encoded.add(std::string_view(bytes));
+    return fmt::format("data:image/{};base64,{}", image_kind(bytes), encoded.finish());
 }
 
 /// The value below which a share of the area lies; among the faces that keep their orientation.
@@ -181,7 +250,8 @@ Json require_record(const PageContent& content) {
     if (content.maps.empty()) throw Error(Cause::bad_option, "the page has no map to show", "give at least one");
     for (const PageMap& map : content.maps) {
         const bool fits = map.map.rows() == content.source.vertex_count() && map.map.cols() >= 2 &&
-                          map.map.cols() <= 3 && map.abs_mu.size() == content.source.face_count();
+                          map.map.cols() <= 3 && map.abs_mu.size() == content.source.face_count() &&
+                          (!map.differential || map.differential->angles.size() == content.source.face_count());
         if (fits) continue;
         throw Error(Cause::bad_option,
                     fmt::format("the map '{}' ({}×{} positions, {} values of |μ|) does not fit the mesh", map.name,
@@ -197,6 +267,11 @@ Json require_record(const PageContent& content) {
 
 }  // namespace
 
+void require_texture(const std::string& bytes) {
+    if (image_kind(bytes) == nullptr)
+        throw Error(Cause::bad_option, "the texture is no image that browsers show", "give a PNG, JPEG, WebP or GIF");
+}
+
 std::string render_page(const PageContent& content) {
     Json data;
     data["record"] = require_record(content);
@@ -206,8 +281,8 @@ std::string render_page(const PageContent& content) {
 
     const Mesh& mesh = content.source;
     const Drawing drawing = make_drawing(mesh, content.drawn_faces);
-    Base64 triangles(3 * drawing.triangles.size());
-    Base64 faces(drawing.triangles.size());
+    Base64 triangles(3 * sizeof(std::uint32_t) * drawing.triangles.size());
+    Base64 faces(sizeof(std::uint32_t) * drawing.triangles.size());
     bool identity = true;
     for (std::size_t t = 0; t < drawing.triangles.size(); ++t) {
         for (const int vertex : drawing.triangles[t]) triangles.add(static_cast<std::uint32_t>(vertex));
@@ -218,7 +293,9 @@ std::string render_page(const PageContent& content) {
     data["coarsened"] = drawing.coarsened();
     data["triangles"] = triangles.finish();
     if (!identity) data["face"] = faces.finish();
-    data["source"] = encode_positions(drawing.reduce(mesh.positions));
+    const Positions positions = drawing.reduce(mesh.positions);
+    data["source"] = encode_positions(positions);
+    if (!content.texture.empty()) data["texture"] = data_address(content.texture);
 
     Eigen::VectorXd areas(mesh.face_count());
     for (int face = 0; face < mesh.face_count(); ++face) areas[face] = face_vector_area(mesh, face).norm();
@@ -229,9 +306,13 @@ std::string render_page(const PageContent& content) {
     for (const PageMap& map : content.maps) {
         Json entry = encode_positions(drawing.reduce(map.map));
         entry["name"] = map.name;
-        Base64 values(drawing.faces.size());
+        Base64 values(sizeof(float) * drawing.faces.size());
         for (const int face : drawing.faces) values.add(static_cast<float>(map.abs_mu[face]));
         entry["abs_mu"] = values.finish();
+        if (map.differential) {
+            entry["directions"] = encode_directions(mesh, drawing, positions, map.differential->angles);
+            entry["critical_points"] = critical_points(mesh, drawing, map.differential->points);
+        }
         entry["p99"] = weighted_quantile(map.abs_mu, areas, 0.99);
         entry["histogram"] = {{"area", histogram(map.abs_mu, areas, end)},
                               {"faces", histogram(map.abs_mu, Eigen::VectorXd::Ones(areas.size()), end)}};

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <beltrami/base/public.h>
 #include <beltrami/mesh/mesh.h>
+#include <beltrami/report/page_differential.h>
 
 namespace beltrami BELTRAMI_PUBLIC {
 
@@ -14,6 +16,7 @@ struct PageMap {
     std::string name;        ///< "extremal", "harmonic", …
     Positions map;           ///< #V×2 image of every vertex, or #V×3 for an image in space; NaN where undefined
     Eigen::VectorXd abs_mu;  ///< #F values of |μ|: above 1 where a face is flipped, NaN where undefined
+    std::optional<PageDifferential> differential = {};  ///< of an extremal map: trajectories, zeros and poles
 };
 
 /// Everything a page shows.
@@ -25,12 +28,18 @@ struct PageContent {
     std::vector<double> history_largest;  ///< largest |μ| after each iteration; may be empty
     std::string record_json;              ///< the command's record, a JSON object ("{}" if there is none)
     std::string title;
+    std::string texture = {};   ///< bytes of an image (PNG, JPEG, WebP or GIF) that lies in the plane; may be empty
     int drawn_faces = 400'000;  ///< a mesh of more triangles is coarsened, for drawing only; the page says so
 };
 
+/// @throw Error bad_option unless the bytes are those of a PNG, JPEG, WebP or GIF
+void require_texture(const std::string& bytes);
+
 /// One self-contained HTML file (UTF-8, nothing is fetched): the surface and its images coloured by |μ|, the histogram
-/// of |μ|, the convergence, the bounds on K, the comparison and the record. Every text is escaped.
-/// @throw Error bad_option if there is no map, a size disagrees with the mesh, or the record is not a JSON object.
+/// of |μ|, the convergence, the bounds on K, the comparison and the record; ellipses and lines of largest stretch, or
+/// the trajectories of φ with its zeros and poles. Every text is escaped. The figures want a browser with WebGL 2.
+/// @throw Error bad_option if there is no map, a size disagrees with the mesh, the texture is no image of these kinds,
+///        or the record is not a JSON object.
 std::string render_page(const PageContent& content);
 
 }  // namespace beltrami

@@ -1,5 +1,9 @@
 // The charts: histogram of |μ|, bounds on K, convergence.
 
+import { viridisAt } from "./colours.js";
+import { $, bounds, data, fixed, isNumber, lowerBound, mainMap, percent, roundTicks, show, svgElement, words } from "./numbers.js";
+import { state } from "./state.js";
+
 function chart(id, height) {
     const svg = $(id), width = Math.max(svg.clientWidth || svg.parentNode.clientWidth, 280);
     svg.replaceChildren();
@@ -7,11 +11,11 @@ function chart(id, height) {
     return { svg, width };
 }
 
-function drawHistogram() {
+export function drawHistogram() {
     const narrow = $("histogram-section").clientWidth < 440, row = narrow ? 92 : 76, left = 4, extra = narrow ? 15 : 0;
-    const { svg, width } = chart("histogram", maps.length * row + 40);
+    const { svg, width } = chart("histogram", data.maps.length * row + 40);
     const end = data.histogram_end, right = width - 12, at = m => left + (right - left) * m / end;
-    maps.forEach((map, i) => {
+    data.maps.forEach((map, i) => {
         const { name } = map, histogram = map.histogram[state.shares];
         const base = (i + 1) * row, peak = Math.max(...histogram.bins, 1e-12), n = histogram.bins.length;
         const group = svgElement(svg, "g", { class: "bins" });
@@ -30,7 +34,7 @@ function drawHistogram() {
         svgElement(svg, "text", { x: narrow ? left : right, y: base - row + 18 + extra,
             "text-anchor": narrow ? "start" : "end" }, extras.join(" · "));
     });
-    const low = maps.length * row;
+    const low = data.maps.length * row;
     for (const [m, text] of roundTicks(0, end, width > 420 ? 6 : 4)) {
         svgElement(svg, "line", { class: "axis", x1: at(m), x2: at(m), y1: low, y2: low + 4 });
         svgElement(svg, "text", { x: at(m), y: low + 18, "text-anchor": m ? "middle" : "start" }, m ? text : "0");
@@ -38,8 +42,8 @@ function drawHistogram() {
     svgElement(svg, "text", { x: (left + right) / 2, y: low + 36, "text-anchor": "middle" }, "|μ|");
     const of = state.shares === "area" ? "the source's area" : "the faces";
     $("histogram-note").textContent = `Share of ${of} by |μ|` +
-        (maps.length > 1 ? "; each row is scaled to its own peak." : ".");
-    const shares = maps.map(map => `${map.name}, 99 % of the area below ${show(map.p99)}`);
+        (data.maps.length > 1 ? "; each row is scaled to its own peak." : ".");
+    const shares = data.maps.map(map => `${map.name}, 99 % of the area below ${show(map.p99)}`);
     svg.setAttribute("aria-label", `Histogram of |μ|, share of ${of}: ` + shares.join("; "));
 }
 
@@ -130,7 +134,7 @@ function drawLine(id, values, name, logarithmic, style) {
         `${name} over ${values.length} iterations, from ${show(values[0])} to ${show(values.at(-1))}`);
 }
 
-function drawCharts() {
+export function drawCharts() {
     const { k, change, largest } = data.history;
     $("history-section").hidden = !k.length && !change.length;
     drawHistogram();

@@ -1,29 +1,30 @@
 // The data of the page, numbers as text, and the parts of the page that are text.
-const $ = id => document.getElementById(id);
-const data = JSON.parse($("data").textContent);
-const record = data.record, mainMap = record.map || {}, solve = record.solve || {};
-const bounds = (mainMap.bounds || []).filter(bound => typeof bound.K === "number");
-// The bound that K_lower repeats, if it is among them.
-const lowerBound = bounds.find(bound => Math.abs(bound.K - mainMap.K_lower) < 1e-9 * bound.K);
 
-function element(tag, attributes = {}, ...children) {
+export const $ = id => document.getElementById(id);
+export const data = JSON.parse($("data").textContent);
+export const record = data.record, mainMap = record.map || {}, solve = record.solve || {};
+export const bounds = (mainMap.bounds || []).filter(bound => typeof bound.K === "number");
+// The bound that K_lower repeats, if it is among them.
+export const lowerBound = bounds.find(bound => Math.abs(bound.K - mainMap.K_lower) < 1e-9 * bound.K);
+
+export function element(tag, attributes = {}, ...children) {
     const node = document.createElement(tag);
     Object.assign(node, attributes);
     node.append(...children);
     return node;
 }
 
-function svgElement(parent, tag, attributes = {}, text) {
-    const node = document.createElementNS($("histogram").namespaceURI, tag);
+export function svgElement(parent, tag, attributes = {}, text) {
+    const node = document.createElementNS("http://www.w3.org/2000/svg", tag);
     for (const name in attributes) node.setAttribute(name, attributes[name]);
     if (text !== undefined) node.textContent = text;
     parent.append(node);
     return node;
 }
 
-const isNumber = x => typeof x === "number" && isFinite(x);
+export const isNumber = x => typeof x === "number" && isFinite(x);
 
-function show(x, digits = 4) {
+export function show(x, digits = 4) {
     if (!isNumber(x)) return "—";
     if (Number.isInteger(x) && Math.abs(x) < 1e9) return String(x).replace(/\B(?=(\d{3})+$)/g, "\u202f");
     const size = Math.abs(x);
@@ -33,14 +34,14 @@ function show(x, digits = 4) {
     return (parseFloat(mantissa) === 1 ? "" : parseFloat(mantissa) + "·") + "10" + raised;
 }
 
-const fixed = (x, digits = 4) =>  // with the zeros at the end
+export const fixed = (x, digits = 4) =>  // with the zeros at the end
     isNumber(x) && Math.abs(x) >= 1e-3 && Math.abs(x) < 10 ** digits ? x.toPrecision(digits) : show(x, digits);
-const percent = x => x > 0 && x < 0.001 ? "< 0.1 %" : show(100 * x, 3) + " %";
-const count = (n, word, many = word + "s") => `${n ? show(n) : "no"} ${n === 1 ? word : many}`;
-const words = text => String(text).replace(/_/g, " ");
-const dilatation = k => k < 1 ? (1 + k) / (1 - k) : Infinity;
+export const percent = x => x > 0 && x < 0.001 ? "< 0.1 %" : show(100 * x, 3) + " %";
+export const count = (n, word, many = word + "s") => `${n ? show(n) : "no"} ${n === 1 ? word : many}`;
+export const words = text => String(text).replace(/_/g, " ");
+export const dilatation = k => k < 1 ? (1 + k) / (1 - k) : Infinity;
 
-function roundTicks(low, high, wanted) {  // ticks as pairs of number and text
+export function roundTicks(low, high, wanted) {  // ticks as pairs of number and text
     const raw = (high - low) / wanted, power = 10 ** Math.floor(Math.log10(raw));
     const step = [1, 2, 2.5, 5, 10].find(digit => digit * power >= raw * 0.999) * power, ticks = [];
     for (let i = Math.ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i) ticks.push(i * step);
@@ -58,7 +59,7 @@ function turnsInWords({ outer_loop, holes = [] }) {
         (unclear.length ? ` Of ${unclear.join(", ")} it cannot be told: faces there are flipped.` : "");
 }
 
-function writeSentence() {
+export function writeSentence() {
     const { K, K_max, K_lower, flipped, degenerate } = mainMap, sentences = [];
     if (isNumber(K)) {
         let sentence = `This map stretches by K ≈ ${fixed(K)}`;
@@ -99,7 +100,7 @@ function writeSentence() {
     $("lead").textContent = sentences.join(" ");
 }
 
-function writeNumbers() {
+export function writeNumbers() {
     const add = (name, value, detail = "", alarm = false) => $("numbers").append(element("div", {},
         element("dt", { textContent: name }),
         element("dd", { textContent: value, className: alarm ? "value alarm" : "value" }),
@@ -129,7 +130,7 @@ function writeNumbers() {
     }
 }
 
-function writeComparison() {
+export function writeComparison() {
     const rows = [{ method: data.maps[0].name, map: mainMap, solve }, ...(record.comparison || [])];
     $("comparison-section").hidden = rows.length < 2;
     const columns = {
@@ -152,7 +153,7 @@ function writeComparison() {
     $("comparison").append(element("thead", {}, element("tr", {}, ...head)), element("tbody", {}, ...body));
 }
 
-function writeRecord() {
+export function writeRecord() {
     $("json").textContent = JSON.stringify(record, null, 2);
     $("copy").onclick = async () => {
         try {

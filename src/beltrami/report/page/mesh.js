@@ -1,0 +1,121 @@
+// The mesh as the page brings it: triangles, the surface and its images. Everything that takes longer than a moment is
+// done in slices, between which the page stays alive.
+
+import { data } from "./numbers.js";
+
+const SLICE = 20000;
+
+const pause = () => new Promise(resolve => {
+    const { port1, port2 } = new MessageChannel();
+    port1.onmessage = () => { port1.close(); resolve(); };
+    port2.postMessage(0);
+});
+
+/// body(first, last) for pieces of 0…count.
+export async function inSlices(count, body) {
+    for (let first = 0; first < count; first += SLICE) {
+        body(first, Math.min(first + SLICE, count));
+        await pause();
+    }
+}
+
+export let triangles, triangleCount, faces;  // three vertices a triangle; the face of the mesh behind each
+export let corners, origins;  // three *corners* a triangle; the vertex of each corner
+export let source, maps;
+
+async function decode(base64, Type) {
+    const bytes = Uint8Array.fromBase64 ? Uint8Array.fromBase64(base64) : new Uint8Array(3 * base64.length / 4
+        - (base64.endsWith("==") ? 2 : base64.endsWith("=") ? 1 : 0));
+    if (!Uint8Array.fromBase64) await inSlices(bytes.length / 3, (first, last) => {
+        const text = atob(base64.slice(4 * first, 4 * last));
+        for (let i = 0; i < text.length; ++i) bytes[3 * first + i] = text.charCodeAt(i);
+    });
+    await pause();
+    return new Type(bytes.buffer);
+}
+
+/// Three coordinates a vertex and, unless it is planar, normals. A surface that does not close faces where its normals do.
+async function surface({ dimension, coordinates }) {
+    const flat = await decode(coordinates, Float32Array), count = flat.length / dimension;
+    if (dimension === 2) {
+        const points = new Float32Array(3 * count);
+        for (let v = 0; v < count; ++v) { points[3 * v] = flat[2 * v]; points[3 * v + 1] = flat[2 * v + 1]; }
+        return { planar: true, points, normals: null, facing: null };
+    }
+    const normals = new Float32Array(3 * count), mean = [0, 0, 0];
+    let area = 0;
+    await inSlices(triangleCount, (first, last) => {
+        for (let t = 3 * first; t < 3 * last; t += 3) {
+            const [a, b, c] = [3 * triangles[t], 3 * triangles[t + 1], 3 * triangles[t + 2]];
+            const ux = flat[b] - flat[a], uy = flat[b + 1] - flat[a + 1], uz = flat[b + 2] - flat[a + 2];
+            const vx = flat[c] - flat[a], vy = flat[c + 1] - flat[a + 1], vz = flat[c + 2] - flat[a + 2];
+            const x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
+            if (!isFinite(x + y + z)) continue;
+            for (const v of [a, b, c]) { normals[v] += x; normals[v + 1] += y; normals[v + 2] += z; }
+            mean[0] += x; mean[1] += y; mean[2] += z;
+            area += Math.hypot(x, y, z);
+        }
+    });
+    await inSlices(count, (first, last) => {
+        for (let v = 3 * first; v < 3 * last; v += 3) {
+            const length = Math.hypot(normals[v], normals[v + 1], normals[v + 2]) || 1;
+            for (let i = 0; i < 3; ++i) normals[v + i] /= length;
+        }
+    });
+    return { planar: false, points: flat, normals, facing: Math.hypot(...mean) > 0.2 * area ? mean : null };
+}
+
+/// Every triangle's last corner becomes one of its own, which carries its values to the graphics card; where a vertex
+/// has more triangles than corners it is there again.
+async function makeCorners() {
+    const vertexCount = source.points.length / 3, taken = new Uint8Array(vertexCount), added = [];
+    corners = new Uint32Array(triangles.length);
+    await inSlices(triangleCount, (first, last) => {
+        for (let t = 3 * first; t < 3 * last; t += 3) {
+            let own = 2;
+            while (own >= 0 && taken[triangles[t + own]]) --own;
+            const vertex = triangles[t + (own < 0 ? 2 : own)], after = own < 0 ? 0 : (own + 1) % 3;
+            corners[t] = triangles[t + after];
+            corners[t + 1] = triangles[t + (after + 1) % 3];
+            corners[t + 2] = own < 0 ? vertexCount + added.push(vertex) - 1 : vertex;
+            taken[vertex] = 1;
+        }
+    });
+    origins = new Uint32Array(vertexCount + added.length);
+    for (let v = 0; v < vertexCount; ++v) origins[v] = v;
+    origins.set(added, vertexCount);
+}
+
+export async function readMesh() {
+    triangles = await decode(data.triangles, Uint32Array);
+    triangleCount = triangles.length / 3;
+    faces = data.face ? await decode(data.face, Uint32Array) : Uint32Array.from({ length: triangleCount }, (_, t) => t);
+    source = await surface(data.source);
+    await makeCorners();
+    maps = [];
+    for (const map of data.maps) {
+        const directions = map.directions && await decode(map.directions, Uint16Array);
+        maps.push({ ...map, absMu: await decode(map.abs_mu, Float32Array), directions, surface: await surface(map),
+                    scale: map.radius / data.source.radius });
+    }
+}
+
+let neighbours;
+
+/// The triangle across each edge: three a triangle, −1 at the boundary; that of edge i runs from vertex i to the next.
+export async function edgeNeighbours() {
+    if (neighbours) return neighbours;
+    const vertexCount = source.points.length / 3, first = new Uint32Array(vertexCount + 1);
+    for (const vertex of triangles) ++first[vertex + 1];
+    for (let v = 0; v < vertexCount; ++v) first[v + 1] += first[v];
+    const edges = new Uint32Array(triangles.length), next = first.slice();  // those that leave each vertex
+    for (let e = 0; e < triangles.length; ++e) edges[next[triangles[e]]++] = e;
+    const end = e => triangles[e % 3 === 2 ? e - 2 : e + 1], found = new Int32Array(triangles.length).fill(-1);
+    await inSlices(triangles.length, (from, to) => {
+        for (let e = from; e < to; ++e) {
+            const a = triangles[e], b = end(e);
+            for (let i = first[b]; i < first[b + 1]; ++i) if (end(edges[i]) === a) { found[e] = edges[i] / 3 | 0; break; }
+        }
+    });
+    return neighbours = found;
+}

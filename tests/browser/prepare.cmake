@@ -1,0 +1,12 @@
+# Copies the browser tests to WORK and fetches their npm packages there, when one of them has changed.
+file(MAKE_DIRECTORY ${WORK})
+file(GLOB files ${SOURCE}/*.js ${SOURCE}/*.json)
+file(COPY ${files} DESTINATION ${WORK})
+file(SHA256 ${SOURCE}/package-lock.json wanted)
+if(EXISTS ${WORK}/fetched)
+    file(READ ${WORK}/fetched fetched)
+endif()
+if(NOT "${fetched}" STREQUAL "${wanted}")
+    execute_process(COMMAND ${NPM} ci --silent --no-audit --no-fund WORKING_DIRECTORY ${WORK} COMMAND_ERROR_IS_FATAL ANY)
+    file(WRITE ${WORK}/fetched ${wanted})
+endif()
