@@ -46,6 +46,16 @@ void add_rule(const std::array<Place, 3>& triangle, double part, std::vector<Pla
         }
 }
 
+/// … and the one of degree 2 with three.
+constexpr double kThird = 1.0 / 6;
+
+void add_small_rule(std::vector<Place>& places, std::vector<double>& weights) {
+    for (const Place& place : {Place{kThird, kThird}, Place{1 - 2 * kThird, kThird}, Place{kThird, 1 - 2 * kThird}}) {
+        places.push_back(place);
+        weights.push_back(1.0 / 3);
+    }
+}
+
 void add_symmetric_rule(std::vector<Place>& places, std::vector<double>& weights) {
     for (const auto& [side, weight] : kSymmetric)
         for (const Place& place : {Place{side, side}, Place{1 - 2 * side, side}, Place{side, 1 - 2 * side}}) {
@@ -86,15 +96,17 @@ SamplePoints conical_points(const Surface& source, const Chart& chart, std::span
     for (int s = 0, q = 0; s < operators.sample_count(); ++s) {
         const int face = operators.faces[s];
         q = s > 0 && face == operators.faces[s - 1] ? q + 1 : 0;
-        if (!near[face]) continue;
         const auto corners = faces[face];
+        if (!near[face] && corners.size() != 3) continue;
         const auto pole = std::find_if(corners.begin(), corners.end(), [&](int v) {
             return std::find(landmarks.begin(), landmarks.end(), v) != landmarks.end();
         });
         const int apex = pole == corners.end() ? 0 : static_cast<int>(pole - corners.begin());
         std::vector<Place> places;
         std::vector<double> weights;
-        if (corners.size() == 3 && pole == corners.end()) {
+        if (!near[face]) {
+            add_small_rule(places, weights);
+        } else if (corners.size() == 3 && pole == corners.end()) {
             add_symmetric_rule(places, weights);
         } else {
             const auto triangles = triangles_of(corners.size(), q, apex);

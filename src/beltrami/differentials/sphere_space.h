@@ -36,11 +36,12 @@ class SphereSpace final : public DifferentialSpace {
     Eigen::MatrixXcd transform_;
 };
 
-/// Points for the samples around landmarks, at which φ may have simple poles: the conical product of Gauss rules with
-/// its apex at the landmark, under which 1/r becomes smooth, 9 a triangle, 18 a quarter of a quad; a symmetric rule
-/// with 6 on triangles further away.
+/// Points for the samples of φ with simple poles at landmarks: at these the conical product of Gauss rules with its
+/// apex at the landmark, under which 1/r becomes smooth, 9 a triangle, 18 a quarter of a quad; symmetric rules on
+/// triangles around them (6 points, degree 4) and on all others (3, degree 2): with one point there the far faces would
+/// leave an error of the first order in the mesh width. The four samples of a quad are exact enough.
 /// @param chart by make_atlas()
-/// @param rings of faces beyond those at the landmarks that have points
+/// @param rings of faces beyond those at the landmarks that count as around them
 SamplePoints conical_points(const Surface& source, const Chart& chart, std::span<const int> landmarks, int rings);
 
 }  // namespace beltrami

@@ -6,8 +6,10 @@
 #include <string>
 
 #include <beltrami/base/error.h>
+#include <beltrami/certificate/refined_problem.h>
 #include <beltrami/sphere/moebius_fit.h>
 #include <beltrami/starts/landmark_flow.h>
+#include <beltrami/teichmuller/around_landmarks.h>
 #include <beltrami/teichmuller/soft_landmarks.h>
 #include <beltrami/teichmuller/sphere_problem.h>
 #include <beltrami/unfold/sphere_repair.h>
@@ -20,6 +22,7 @@ namespace {
 constexpr double kTolerance = 1e-5, kToleranceOfK = 0.1;
 constexpr int kFlowSteps = 20;
 constexpr double kLeastSeparation = 1e-3;  // of landmarks on the sphere
+constexpr int kStepsBack = 3;              // on the mesh itself after one that is finer around landmarks
 constexpr double kHeldUp = 0.05;           // part of a step below which something holds up the map
 
 std::string short_number(double x) {
@@ -169,9 +172,9 @@ void measure(const Surface& source, ExtremalSphereMap& result) {
     result.weighted_deviation = by_phi.standard_deviation;
 }
 
-void record_bounds(const Surface& source, const CoefficientStep::Result& step, ExtremalSphereMap& result) {
-    result.k = step.k;
-    result.K = std::min(dilatation(step.k), result.K_max);
+void record_bounds(const Surface& source, double k, ExtremalSphereMap& result) {
+    result.k = k;
+    result.K = std::min(dilatation(k), result.K_max);
     const ReichStrebel integrals = reich_strebel(source, result.differential, result.distortion.mu);
     if (integrals.valid) {
         result.K_lower = std::clamp(integrals.lower, 1.0, result.K);
@@ -182,31 +185,94 @@ void record_bounds(const Surface& source, const CoefficientStep::Result& step, E
         result.bounds.push_back({Bound::Kind::attained, result.K_max, Bound::Of::extremal, false});
 }
 
-/// Hamilton's iteration from the start.
-void iterate(const Surface& source, const Positions& on_sphere, const Landmarks& landmarks,
-             const ExtremalSphereOptions& options, ExtremalSphereMap& result) {
-    SphereProblem problem(source, on_sphere, landmarks.vertices, options.cluster_count);
-    SphereMapStep step(source, landmarks.vertices, result.start);
+/// Where the iteration came to.
+struct Settled {
+    Positions points;
+    CoefficientStep::Result last;
+    double residual = 0;  ///< largest distance of a soft landmark
+    bool converged = false, held_up = false;
+    int iterations = 0, factorizations = 0;
+    std::vector<Iteration> history;
+};
+
+/// Hamilton's iteration from a start. Images are turned by the Möbius map that brings the landmarks nearest to where
+/// they are in the source, and at the end back: that costs nothing, and away from the landmarks the map is then about
+/// as smooth as a mesh can draw it. Soft landmarks measure distances and stay where they are.
+/// @param surface that of the problem
+Settled settle(const Surface& surface, SphereProblem& problem, const Positions& on_sphere, const Positions& start,
+               const Landmarks& landmarks, const ExtremalSphereOptions& options) {
+    const SphereFaces faces(surface);
+    Positions from = start;
+    if (!landmarks.soft()) from = moebius_fitted(start, landmarks.vertices, on_sphere(landmarks.vertices, Eigen::all));
+    const bool turned = !landmarks.soft() && faces.flipped(from).empty();
+    SphereMapStep step(surface, landmarks.vertices, turned ? from : start);
+    Settled result;
     if (landmarks.soft()) {
-        SoftLandmarks soft(source, problem, step, landmarks.vertices, landmarks.images, landmarks.weights,
+        SoftLandmarks soft(surface, problem, step, landmarks.vertices, landmarks.images, landmarks.weights,
                            iteration_options(options));
         result.iterations = soft.settle();
         result.residual = (soft.places() - landmarks.images).rowwise().norm().maxCoeff();
     }
     const HamiltonIteration iteration = problem.settle(step, iteration_options(options));
-    const CoefficientStep::Result& last = iteration.last_step();
-    const bool held_up = step.last_length() < kHeldUp && last.k > kTolerance;
-    result.termination = iteration.converged() && !held_up ? Termination::converged : Termination::iteration_limit;
+    result.last = iteration.last_step();
+    result.held_up = step.last_length() < kHeldUp && result.last.k > kTolerance;
+    result.converged = iteration.converged();
     result.iterations += iteration.iterations();
     result.factorizations = step.factorization_count();
     result.history = iteration.history();
-    result.positions = step.points();
+    result.points = step.points();
+    if (turned) {
+        result.points = moebius_fitted(std::move(result.points), landmarks.vertices, landmarks.images);
+        for (std::size_t i = 0; i < landmarks.vertices.size(); ++i)
+            result.points.row(landmarks.vertices[i]) = landmarks.images.row(static_cast<Eigen::Index>(i));
+    }
+    return result;
+}
+
+/// k conj(φ)/|φ|
+Eigen::VectorXcd coefficient(double k, const Eigen::VectorXcd& phi) {
+    return phi.unaryExpr([k](Complex value) { return value == 0.0 ? value : k * std::conj(value) / std::abs(value); });
+}
+
+/// k of the iteration on a mesh that is finer around the landmarks. What its map leaves on this one is too coarse for
+/// it there: φ is found anew, and a few steps go towards it. Nothing if faces are flipped.
+std::optional<Settled> settle_finer(const Surface& source, SphereProblem& problem, const Positions& on_sphere,
+                                    const Positions& start, const Landmarks& landmarks,
+                                    const ExtremalSphereOptions& options) {
+    if (!all_triangles(source.mesh)) return {};
+    const AroundLandmarks finer = refined_around(source, landmarks.vertices, {on_sphere, start});
+    SphereProblem there(finer.surface, finer.maps[0], landmarks.vertices, options.cluster_count);
+    Settled result = settle(finer.surface, there, finer.maps[0], finer.maps[1], landmarks, options);
+    result.points.conservativeResize(source.mesh.vertex_count(), 3);
+    if (!SphereFaces(source).flipped(result.points).empty()) return {};
+    const double k = result.last.k;
+    result.last = problem.coefficient_step(beltrami_coefficient(source.operators, result.points, result.points));
+    result.last.k = k;
+    SphereMapStep step(source, landmarks.vertices, std::move(result.points));
+    step.weigh(result.last.phi);
+    for (int i = 0; i < kStepsBack; ++i) step.solve(coefficient(k, result.last.phi), 0);
+    result.factorizations += step.factorization_count();
+    result.points = step.points();
+    return result;
+}
+
+void iterate(const Surface& source, const Positions& on_sphere, const Landmarks& landmarks,
+             const ExtremalSphereOptions& options, ExtremalSphereMap& result) {
+    SphereProblem problem(source, on_sphere, landmarks.vertices, options.cluster_count);
+    std::optional<Settled> found = settle_finer(source, problem, on_sphere, result.start, landmarks, options);
+    if (!found) found = settle(source, problem, on_sphere, result.start, landmarks, options);
+    result.termination = found->converged && !found->held_up ? Termination::converged : Termination::iteration_limit;
+    result.iterations = found->iterations;
+    result.factorizations = found->factorizations;
+    result.history = std::move(found->history);
+    result.positions = std::move(found->points);
+    result.residual = found->residual;
     result.dimension = problem.dimension();
-    result.differential = problem.differential(last.direction);
-    result.phi = last.phi;
+    result.differential = problem.differential(found->last.direction);
+    result.phi = found->last.phi;
     measure(source, result);
-    record_bounds(source, last, result);
-    if (held_up && iteration.converged())
+    record_bounds(source, found->last.k, result);
+    if (found->held_up && found->converged)
         result.warnings.push_back(
             {WarningKind::rough, "faces that are about to flip hold the map up: k is too large by what they cost"});
 }

@@ -45,7 +45,7 @@ struct ExtremalSphereMap : MapResult {
     Positions positions;                 ///< #V×3 unit vectors; landmarks that are not soft are at their images
     Positions start;                     ///< #V×3 the map from which the iteration began
     QuadraticDifferential differential;  ///< with simple poles at the landmarks; zero() where the map is conformal
-    Eigen::VectorXcd phi;                ///< #S its values at the samples, means over faces near landmarks
+    Eigen::VectorXcd phi;                ///< #S its means over triangles; values at the samples of quads
     double k = 0, K = 1;                 ///< of the last c-step: estimates of k* and K*
     /// 1/I⁻ of the Reich-Strebel inequality: an estimate of a lower bound, as the atlas is conformal up to the mesh.
     double K_lower = 1;
