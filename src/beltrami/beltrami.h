@@ -25,6 +25,7 @@
 #include <beltrami/constraints/boundary_corners.h>
 #include <beltrami/constraints/boundary_feasibility.h>
 #include <beltrami/constraints/prescribed_split.h>
+#include <beltrami/curves/surface_curve.h>
 #include <beltrami/differentials/quadratic_differential.h>
 #include <beltrami/differentials/zeros_and_poles.h>
 #include <beltrami/evening/even_dilatation.h>
