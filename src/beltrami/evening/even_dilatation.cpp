@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +28,7 @@ struct Stage {
 /// The damping falls as φ and k settle; the penalty on outliers rises. Sweeps even out what is short, Gauss-Newton
 /// steps what is long: with two sweeps before the first two, three steps do as well as four with one each.
 constexpr Stage kStages[] = {{2, 30, false, 0.02}, {2, 100, true, 0.003}, {1, 200, false, 0.002}};
+constexpr int kStageCount = static_cast<int>(std::size(kStages));
 constexpr Stage kLastStage{3, 400, false, 0};
 /// Samples whose derivatives are found before they are added up.
 constexpr int kSamplesAtOnce = 8192;
@@ -46,17 +49,17 @@ class Evening {
           around_(operators_),
           spread_(operators_),
           sweeps_(operators_, around_, freedoms_),
-          patches_(operators_, around_, freedoms_, {options.outlier, options.most_patch_vertices}),
-          system_(operators_, freedoms_, kExpectedFactorizations) {}
+          patches_(operators_, around_, freedoms_, {options.outlier, options.most_patch_vertices}) {}
 
     DilatationSpread& spread() { return spread_; }
     const DilatationSweeps& sweeps() const { return sweeps_; }
     const DilatationPatches& patches() const { return patches_; }
-    int factorizations() const { return system_.factorization_count(); }
+    int factorizations() const { return system_ ? system_->factorization_count() : 0; }
 
     /// Shortened until the energy falls and nothing folds; may stay where it is.
     void gauss_newton(Eigen::VectorXcd& f, double damping) {
-        system_.set_zero();
+        if (!system_) system_.emplace(operators_, freedoms_, kExpectedFactorizations);
+        system_->set_zero();
         const int samples = operators_.sample_count();
         elements_.resize(static_cast<std::size_t>(std::min(samples, kSamplesAtOnce)));
         for (int begin = 0; begin < samples; begin += kSamplesAtOnce) {
@@ -69,11 +72,11 @@ class Evening {
                 },
                 kSamplesAtOnce / 16);
             for (int s = begin; s < end; ++s)
-                system_.add(s, elements_[s - begin].gradient.data(), elements_[s - begin].hessian.data());
+                system_->add(s, elements_[s - begin].gradient.data(), elements_[s - begin].hessian.data());
         }
         Eigen::VectorXcd direction;
         try {
-            direction = system_.solve().direction;
+            direction = system_->solve().direction;
         } catch (const Error& error) {
             if (error.cause() != Cause::not_solved) throw;
             return;  // sweeps go on without it
@@ -98,7 +101,7 @@ class Evening {
     DilatationSpread spread_;
     DilatationSweeps sweeps_;
     DilatationPatches patches_;
-    CoupledSystem system_;
+    std::optional<CoupledSystem> system_;  // from the first step on
     std::vector<DilatationSpread::Element> elements_;
 };
 
@@ -119,6 +122,7 @@ void EvenDilatationOptions::validate() const {
     const auto demand = [](bool holds, const char* sentence) {
         if (!holds) throw Error(Cause::bad_option, sentence);
     };
+    demand(steps >= 0 && steps <= kStageCount, "steps must be 0 to 3");
     demand(anchor >= 0 && std::isfinite(anchor), "anchor must not be negative");
     demand(outlier > 0, "outlier must be positive");
     demand(most_patch_vertices >= 0, "most_patch_vertices must not be negative");
@@ -166,8 +170,8 @@ EvenDilatation even_dilatation(const Surface& source, const std::vector<Freedom>
         report();
         return most <= (1 + kSettled) * least;
     };
-    for (const Stage& s : kStages)
-        if (run(s)) break;
+    for (int i = kStageCount - options.steps; i < kStageCount; ++i)
+        if (run(kStages[i])) break;
     run(kLastStage);
     for (const int rings : kRings) {
         const int steps = evening.patches().run(spread, f, rings);

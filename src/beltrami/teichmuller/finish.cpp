@@ -67,7 +67,7 @@ bool Finish::uneven(const FoundMap& found, bool singular) const {
            deviation(operators(), mu, found.step.phi, found.step.k) > std::max(kUnevenAtAll, part * found.step.k);
 }
 
-bool Finish::even_out(FoundMap& found) {
+bool Finish::even_out(FoundMap& found, int steps) {
     const auto update = [&](const Eigen::VectorXcd& at, Eigen::VectorXcd& phi, double& k) {
         found.step = coefficient_step_.solve(beltrami_coefficient(operators(), at), found.step.direction,
                                              kFinishingStep, kFinishingSteps);
@@ -75,8 +75,10 @@ bool Finish::even_out(FoundMap& found) {
         k = found.step.k;
         return true;
     };
+    EvenDilatationOptions options;
+    options.steps = steps;
     EvenDilatation even =
-        even_dilatation(source_, freedoms_, found.map, found.step.k, on_source(found.step.phi), update);
+        even_dilatation(source_, freedoms_, found.map, found.step.k, on_source(found.step.phi), update, options);
     factorizations_ += even.factorizations;
     if (!even.improved) return false;
     found.map = std::move(even.map);

@@ -24,6 +24,8 @@ int folded_samples(const Eigen::VectorXcd& mu);
 /// Newton step, as part of the whole, to which c-steps are solved after the iteration where φ has been found roughly.
 constexpr double kFinishingStep = 2e-3;
 constexpr int kFinishingSteps = 20;
+/// Gauss-Newton steps of evening out.
+constexpr int kEveningSteps = 3;
 
 /// What comes after the iteration of every extremal problem: |μ| is evened out, folds are opened, φ and k follow the
 /// map. Vertices that slide stay where they are.
@@ -42,7 +44,8 @@ class Finish {
     bool uneven(const FoundMap& found, bool singular) const;
 
     /// Evens |μ| out, φ and k following the map (even_dilatation.h); whether the map has changed.
-    bool even_out(FoundMap& found);
+    /// @param steps of Gauss-Newton
+    bool even_out(FoundMap& found, int steps = kEveningSteps);
     /// Opens folds, on the way to the coefficient of φ and k (fold_free.h); where all else fails and the boundary goes
     /// to a convex polygon, from a map that never had any. Whether the map has changed: then it has none.
     /// @param boundary what the map is to obey, sliding vertices at their places

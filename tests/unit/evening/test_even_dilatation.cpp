@@ -282,6 +282,20 @@ TEST(EvenDilatation, FindsAnAffineMapAgain) {
     }
 }
 
+TEST(EvenDilatation, TakesFewerStepsWhereAsked) {
+    const Surface source(test::jittered_square(12));
+    const Eigen::VectorXcd start = values(source, affine, 0.02);
+    for (int steps = 0; steps <= 3; ++steps) {
+        EvenDilatationOptions options;
+        options.steps = steps;
+        const EvenDilatation even =
+            even_dilatation(source, boundary_fixed(source), start, kAffine, constant_phi(source), {}, options);
+        EXPECT_EQ(even.factorizations, steps);
+        EXPECT_EQ(even.flipped, 0);
+        EXPECT_LT(even.energy, 0.01 * even.start_energy) << steps;
+    }
+}
+
 TEST(EvenDilatation, KeepsAGoodMap) {
     for (const Mesh& mesh : {disk(16), test::quad_disk(9)}) {
         const Surface source(mesh);
@@ -484,6 +498,9 @@ TEST(EvenDilatation, RefusesNonsense) {
         return -1;
     };
     const int bad_option = static_cast<int>(Cause::bad_option);
+    EvenDilatationOptions four_steps;
+    four_steps.steps = 4;
+    EXPECT_EQ(cause([&] { even_dilatation(source, freedoms, start, 0.5, phi, {}, four_steps); }), bad_option);
     EXPECT_EQ(cause([&] { even_dilatation(source, freedoms, start, 1, phi); }), bad_option);
     EXPECT_EQ(cause([&] { even_dilatation(source, freedoms, start, -0.1, phi); }), bad_option);
     EXPECT_EQ(cause([&] { even_dilatation(source, freedoms, start, 0.5, phi.head(3)); }), bad_option);
