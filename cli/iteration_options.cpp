@@ -20,8 +20,9 @@ void set(Value& value, const std::optional<Value>& given) {
 void IterationOptions::add_to(CLI::App& app) {
     app.add_option("--tolerance", tolerance_,
                    "stop when an iteration changes the result by less: the extremal map k and the direction of phi "
-                   "(default 1e-8; with --onto 1e-6, k by a hundredth of it), --minimize max the energy as Newton's "
-                   "method predicts it (1e-6), other methods the root of their energy's change (1e-5; of alternation "
+                   "(default 1e-8, smooth phi 1e-5; with --onto 1e-6, k by a hundredth of it), --minimize max the "
+                   "energy as Newton's method predicts it (1e-6), other methods the root of their energy's change "
+                   "(1e-5; of alternation "
                    "this is epsilon)")
         ->type_name("T");
     app.add_option("--max-iterations", max_iterations_,

@@ -15,9 +15,6 @@ namespace beltrami {
 namespace {
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
-/// The bracket of a smooth problem, as part of K, times the number of triangles: less than this. (.7 for a bump, but 4
-/// for four points of a disk, where leaving the poles out would cost .35 % of K.)
-constexpr double kTightPerTriangle = 2;
 /// Triangles of the coarse mesh: a part of the samples, within limits.
 constexpr int kCoarsePart = 7, kFewestTriangles = 1'200, kMostTriangles = 5'000;
 
@@ -86,6 +83,7 @@ CoarseStart coarse_start(const Surface& source, const BoundaryCondition& boundar
     coarse_options.progress = {};
     coarse_options.grow_last = false;
     coarse_options.within_bracket = kWithinBracket;
+    adapt_to_smooth(options, coarse_options);
     problem.map_step().set_near(false);
     HamiltonIteration iteration(problem.map_step(), problem.coefficient_step(), coarse_options);
     CoarseStart result;
@@ -93,8 +91,7 @@ CoarseStart coarse_start(const Surface& source, const BoundaryCondition& boundar
     // start.
     iteration.run(result.state, grown ? std::make_unique<PolynomialSpace>(largest_degree, largest_degree)
                                       : problem.starting_space(largest_degree));
-    result.tight =
-        iteration.converged() && bracket(iteration.last_step()) * model.mesh.face_count() < kTightPerTriangle;
+    if (iteration.converged()) result.bracket_by_triangles = bracket(iteration.last_step()) * model.mesh.face_count();
     return result;
 }
 

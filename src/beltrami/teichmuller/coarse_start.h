@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include <beltrami/teichmuller/extremal_map.h>
 #include <beltrami/teichmuller/hamilton.h>
 
@@ -7,8 +9,9 @@ namespace beltrami {
 
 struct CoarseStart {
     HamiltonState state;  ///< without a space if there is none
-    /// It has settled with a bracket of K as narrow as that of a smooth problem on such a mesh.
-    bool tight = false;
+    /// Of the bracket of K with which it has settled, as part of K, times the number of triangles: of smooth problems
+    /// it is the same on every mesh. ∞ if it has not settled.
+    double bracket_by_triangles = std::numeric_limits<double>::infinity();
 };
 
 /// Below so many samples the coarse problem would cost as much as it saves.

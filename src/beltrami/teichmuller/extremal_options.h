@@ -16,8 +16,8 @@ class Shape;
 /// How an extremal problem is solved.
 struct ExtremalOptions : IterationOptions {
     // tolerance: stop when the change of the direction of φ is below this, and |Δk| below it too (where boundaries
-    // slide: below a hundredth of it). 0: 1e-8 with prescribed boundary values, 1e-6 where boundaries slide. Where φ is
-    // singular (corners, pins) and the map is to be evened out, which moves φ further, 0.03 and its square will do.
+    // slide: below a hundredth of it). 0: 1e-8 with prescribed boundary values, and 1e-5 for φ where it is smooth on a
+    // disk, 1e-6 where boundaries slide. Where φ is singular and the map is to be evened out, 0.03 and its square do.
 
     double growth = 1e-5;      ///< the space of differentials grows while that raises k by more than this part
     int cluster_count = 1500;  ///< quadrature points of the c-step on large meshes, at least 100

@@ -31,8 +31,6 @@ constexpr int kNewtonSteps = 40;
 /// A larger space has so many steps to settle, and may lower the bound by this part.
 constexpr int kGrownIterations = 15;
 constexpr double kWorse = 1e-4;
-/// Acceleration begins once φ changes by less than this.
-constexpr double kAccelerateBelow = 0.1;
 /// A change above this that hardly falls is a φ that turns back and forth; the least part of a step that is then taken.
 constexpr double kTurnsBack = 0.5, kLeastRelaxation = 0.125;
 /// The f-step is solved to this part of the change that the c-step will see.
@@ -88,7 +86,8 @@ class Settling {
 /// How φ and k of the next f-step follow from a c-step: they are its own, or led further by acceleration.
 class Stride {
   public:
-    explicit Stride(int window) : window_(window), anderson_(window) {}
+    explicit Stride(const HamiltonIteration::Options& options)
+        : window_(options.anderson_window), begin_below_(options.accelerate_below), anderson_(window_) {}
     /// In a larger space.
     void restart() {
         anderson_.reset();
@@ -102,7 +101,7 @@ class Stride {
         if (change > kTurnsBack && change > 0.8 * last_change_)
             relaxation_ = std::max(0.5 * relaxation_, kLeastRelaxation);
         last_change_ = change;
-        accelerated_ = window_ > 0 && change < kAccelerateBelow && !astray;
+        accelerated_ = window_ > 0 && change < begin_below_ && !astray;
         if (accelerated_) {
             const Eigen::VectorXd next = anderson_.next(pack(state.direction, state.k), pack(step.direction, step.k));
             const Eigen::Index m = state.direction.size();
@@ -122,6 +121,7 @@ class Stride {
 
   private:
     int window_;
+    double begin_below_;
     AndersonAcceleration anderson_;
     double last_change_ = 1, relaxation_ = 1;
     bool accelerated_ = false;
@@ -222,7 +222,7 @@ void HamiltonIteration::run(HamiltonState& state, std::unique_ptr<DifferentialSp
     const bool from_elsewhere = state.space != nullptr;
     begin(state, std::move(smallest));
     Settling settling(options_);
-    Stride stride(options_.anderson_window);
+    Stride stride(options_);
     Kept best;      // is returned if nothing settles
     Kept fallback;  // had settled in a smaller space
     int grown_at = 0;

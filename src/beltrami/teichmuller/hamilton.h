@@ -36,6 +36,8 @@ class HamiltonIteration {
         /// All has settled too once k stays and the bracket is narrow for so many steps, though φ still moves.
         int quiet_steps = 6;
         int anderson_window = 5;
+        /// Acceleration begins once φ changes by less than this. Near singular φ early steps lead astray.
+        double accelerate_below = 0.1;
         /// When a larger space is tried, besides at a start from nothing: with the first map that comes from another
         /// problem's state, and once all has settled.
         bool grow_first = true, grow_last = true;

@@ -1,10 +1,17 @@
 #include <beltrami/teichmuller/hamilton_options.h>
 
+#include <algorithm>
+
 namespace beltrami {
 
 namespace {
 
 constexpr double kTolerance = 1e-8;
+/// On a disk without singularities: k, of second order in the direction of φ, is then exact to 1e-8, and the map to far
+/// less than the error of the mesh.
+constexpr double kSmoothTolerance = 1e-5;
+/// Acceleration begins there as soon as φ changes by less than itself.
+constexpr double kAccelerateSmoothBelow = 1;
 /// Where boundaries slide the error of the mesh is far larger; k, of second order in the direction of φ, settles to
 /// this part of it.
 constexpr double kSlidingTolerance = 1e-6, kToleranceOfK = 0.01;
@@ -19,6 +26,11 @@ HamiltonIteration::Options iteration_options(const ExtremalOptions& options) {
     result.anderson_window = options.anderson_window;
     result.progress = options.progress;
     return result;
+}
+
+void adapt_to_smooth(const ExtremalOptions& options, HamiltonIteration::Options& how) {
+    how.accelerate_below = kAccelerateSmoothBelow;
+    if (!(options.tolerance > 0)) how.tolerance = std::max(how.tolerance, kSmoothTolerance);
 }
 
 HamiltonIteration::Options sliding_iteration_options(const ExtremalOptions& options) {

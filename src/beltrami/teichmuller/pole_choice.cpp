@@ -21,6 +21,14 @@ constexpr double kClearCorner = 3, kSharpImage = 0.35;
 constexpr double kNoise = 0.03;
 /// Values that force so much in a quadrilateral crowd in the chart (camel_b: 5; other scans 1.1 to 1.8).
 constexpr double kCrowded = 3;
+/// Where the bracket of the coarse problem, times its triangles, is below this, the corners are not seen. (A bump has
+/// .7; four points of a disk have 4, and leaving their poles out would cost .35 % of K.)
+constexpr double kTight = 2;
+/// Up to this they may be seen on the coarse mesh alone. That they are not on the fine one is shown by its bracket:
+/// that of a smooth problem falls like 1/triangles (three lobes: 10.8, 10.5, 10.4 times that on any mesh), that of a
+/// singular one does not (four points of a disk: 3.5, then 11.5; a half-plane: 20, then 102). So much more is taken for
+/// smooth.
+constexpr double kPerhapsTight = 16, kFallsLikeSmooth = 1.5;
 /// Directions of held vertices that turn by less (radians) are kept.
 constexpr double kTurned = 0.02;
 
@@ -74,11 +82,15 @@ HamiltonState PoleChoice::choose(ProblemChart charts, bool plain) {
         problem_.chart_is_round()) {
         CoarseStart coarse = coarse_start(source, boundary_, problem_.chart(), problem_.phase(),
                                           problem_.largest_degree(), options_, instead_ ? 0 : kCoarseStartPays);
-        if (coarse.tight) {
+        const bool tight = coarse.bracket_by_triangles < kTight;
+        if (tight || (!instead_ && coarse.bracket_by_triangles < kPerhapsTight)) {
             smooth_ = true;
             state = std::move(coarse.state);
             withheld_ = std::move(singularities);
             singularities = {};
+            if (!tight)
+                widest_bracket_ = std::min(
+                    kPolesNeeded, kFallsLikeSmooth * coarse.bracket_by_triangles / source.operators.sample_count());
         }
     }
     if (instead_ && !withheld_) singularities = take_instead(problem_.harmonic());

@@ -27,10 +27,17 @@ class PoleChoice {
     bool follow(const Eigen::VectorXcd& map);
 
     bool withheld() const { return withheld_.has_value(); }
+    /// Whether they were although the coarse problem sees them: bends narrower than an edge.
+    bool narrow_bends() const { return withheld() && widest_bracket_ < kPolesNeeded; }
+    /// Whether singularities that were withheld are needed after all, for all that a bracket of K shows (as part of K).
+    bool needed(double bracket) const { return withheld() && bracket > widest_bracket_; }
     bool smooth() const { return smooth_; }        ///< φ has no singularities
     bool elongated() const { return elongated_; }  ///< see elongation.h
 
   private:
+    /// Width of the bracket, as part of K, from which on poles are needed in any case.
+    static constexpr double kPolesNeeded = 0.01;
+
     std::ptrdiff_t image_corners() const;
     std::vector<BoundaryCorner> clear_corners() const;
     bool wants_chart_metric() const;
@@ -44,6 +51,7 @@ class PoleChoice {
     HeldVertices held_alone_;       // as the space of differentials has them
     std::optional<Chart> instead_;  // for φ that has singularities
     std::optional<Singularities> withheld_;
+    double widest_bracket_ = kPolesNeeded;  // with which φ may do without them
     bool smooth_ = true, elongated_ = false;
 };
 

@@ -28,6 +28,7 @@ class PrescribedSolver final : public ProblemSolver {
 
     // Iteration.
     void run();
+    void run_with_poles();
     void iterate_roughly();
     void iterate(const HamiltonIteration::Options& how);
     void iterate_once(const HamiltonIteration::Options& how);
@@ -37,7 +38,8 @@ class PrescribedSolver final : public ProblemSolver {
 
     // Finish.
     Finish finish();
-    bool even_out(Finish& finish);
+    int evening_steps(const Finish& finish) const;
+    bool even_out(Finish& finish, int steps = kEveningSteps);
     void compare_outlines();
     double estimate_with(const BoundaryCondition& other);
 
