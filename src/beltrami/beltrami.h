@@ -30,6 +30,7 @@
 #include <beltrami/differentials/zeros_and_poles.h>
 #include <beltrami/evening/even_dilatation.h>
 #include <beltrami/flow/beltrami_flow.h>
+#include <beltrami/flow/ring_module.h>
 #include <beltrami/flow/surface_flow.h>
 #include <beltrami/forms/flat_torus.h>
 #include <beltrami/forms/harmonic_basis.h>

@@ -107,6 +107,13 @@ bool coefficient_fits(const CoefficientError& error) {
     return error.misfit < std::max(kMisfit * error.residual, kRounding);
 }
 
+Warning misfit_warning(const CoefficientError& error) {
+    return {WarningKind::coefficient,
+            "the coefficient does not belong to a map onto this target: the relative residual is " +
+                std::to_string(error.residual) + ", of which " + std::to_string(error.misfit) +
+                " are no error of the mesh; the map is the least-squares one"};
+}
+
 FlowMap beltrami_flow(const Surface& source, const Eigen::VectorXcd& mu, const SlidingStart& start,
                       const FlowOptions& options) {
     options.validate();
@@ -140,12 +147,7 @@ FlowMap beltrami_flow(const Surface& source, const Eigen::VectorXcd& mu, const S
     result.error = result.history.back().error;
     require_not_collapsed(result.loops);
     result.fits = coefficient_fits(result.error);
-    if (!result.fits)
-        result.warnings.push_back(
-            {WarningKind::coefficient,
-             "the coefficient does not belong to a map onto this target: the relative residual is " +
-                 std::to_string(result.error.residual) + ", of which " + std::to_string(result.error.misfit) +
-                 " are no error of the mesh; the map is the least-squares one"});
+    if (!result.fits) result.warnings.push_back(misfit_warning(result.error));
     warn_of_folds_and_limit(std::to_string(result.iterations) + " iterations before the map settled", result);
     return result;
 }

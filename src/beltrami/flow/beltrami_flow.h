@@ -29,6 +29,9 @@ CoefficientError coefficient_error(const Surface& source, const Eigen::VectorXcd
 /// from the error of the least-squares map: the misfit is below 0.4 of the residual, or both are rounding.
 bool coefficient_fits(const CoefficientError& error);
 
+/// That a coefficient does not fit a target.
+Warning misfit_warning(const CoefficientError& error);
+
 struct FlowIteration {
     double movement;  ///< largest of a boundary vertex, as part of its curve's length
     double change;    ///< of the map, relative: root mean square over the source's vertices by that of their distance

@@ -10,9 +10,8 @@
 #include <beltrami/base/error.h>
 #include <beltrami/solve/image_frame.h>
 #include <beltrami/solve/quasiconformal_map.h>
-#include <beltrami/solve/raised_corners.h>
 #include <beltrami/solve/target_step.h>
-#include <beltrami/solve/vertex_samples.h>
+#include <beltrami/sphere/unit_sphere.h>
 
 namespace beltrami {
 
@@ -142,6 +141,7 @@ class Flow {
             source_.operators,
             derivatives(source_.operators, positions_of(result_.map.points), normals_of(result_.map.points)));
         result_.error = coefficient_error(source_, result_.map, mu);
+        result_.fits = coefficient_fits(result_.error);
         if (!result_.distortion.flipped.empty())
             result_.warnings.push_back(
                 {WarningKind::flipped_faces,
@@ -165,6 +165,12 @@ class Flow {
     int flips_ = 0;
     double size_ = 1;
 };
+
+/// The square of the direction that a vertex' frame has in that of a sample beside it.
+Complex turn_to(const ImageFrame& frame, const Eigen::Vector3d& normal) {
+    const Complex direction = frame.along(TangentFrame(normal).first);
+    return direction * direction / std::max(std::norm(direction), 1e-300);
+}
 
 }  // namespace
 
@@ -194,8 +200,12 @@ CoefficientError coefficient_error(const Surface& source, const TargetMap& map, 
     const Positions points = positions_of(map.points), normals = normals_of(map.points);
     CoefficientError error;
     double squares = 0, area = 0, residual = 0, whole = 0;
+    // (∂̄f − μ∂f)/conj(∂f) in the frames of the vertices, in which it can be averaged, by |∂f|² and area.
+    Eigen::VectorXcd mean = Eigen::VectorXcd::Zero(operators.vertex_count);
+    Eigen::VectorXd around = Eigen::VectorXd::Zero(operators.vertex_count);
     for (int s = 0; s < operators.sample_count(); ++s) {
         const ImageFrame frame = image_frame(operators, s, points, normals);
+        const Complex left = frame.q - mu[s] * frame.p;
         const double difference = std::abs(frame.q / frame.p - mu[s]), w = operators.weights[s];
         if (std::isfinite(difference)) {
             squares += w * difference * difference;
@@ -204,11 +214,25 @@ CoefficientError coefficient_error(const Surface& source, const TargetMap& map, 
         } else {
             error.sup = std::numeric_limits<double>::infinity();
         }
-        residual += w * std::norm(frame.q - mu[s] * frame.p);
+        residual += w * std::norm(left);
         whole += w * std::norm(frame.p);
+        for (const int v : operators.stencil(s)) {
+            mean[v] += w * left * frame.p * std::conj(turn_to(frame, map.points[v].normal));
+            around[v] += w * std::norm(frame.p);
+        }
     }
     error.l2 = area > 0 ? std::sqrt(squares / area) : 0.0;
     error.residual = std::sqrt(residual / whole);
+    double smooth = 0;
+    for (int s = 0; s < operators.sample_count(); ++s) {
+        const ImageFrame frame = image_frame(operators, s, points, normals);
+        const auto stencil = operators.stencil(s);
+        Complex sum = 0;
+        for (const int v : stencil)
+            if (around[v] > 0) sum += mean[v] / around[v] * turn_to(frame, map.points[v].normal);
+        smooth += operators.weights[s] * std::norm(frame.p) * std::norm(sum / static_cast<double>(stencil.size()));
+    }
+    error.misfit = std::sqrt(smooth / whole);
     return error;
 }
 
@@ -218,12 +242,14 @@ SurfaceFlowMap surface_flow(const Surface& source, const Target& target, const E
     require_coefficient(source, mu);
     require_start(source, constraints, start);
     Flow flow(source, target, constraints, std::move(start), options);
-    return flow.run(mu, [&](FlowScheme scheme) -> std::unique_ptr<TargetEnergy> {
+    SurfaceFlowMap result = flow.run(mu, [&](FlowScheme scheme) -> std::unique_ptr<TargetEnergy> {
         const std::vector<double>& areas = source.operators.weights;
         if (scheme == FlowScheme::residual) return std::make_unique<ResidualEnergy>(mu, areas);
         if (scheme == FlowScheme::perturbation) return std::make_unique<PerturbationEnergy>(mu, areas);
         return std::make_unique<BarrierEnergy>(mu, areas);
     });
+    if (!result.fits) result.warnings.push_back(misfit_warning(result.error));
+    return result;
 }
 
 SurfaceFlowMap least_lp_map(const Surface& source, const Target& target, const LpNorm& norm,
@@ -239,11 +265,13 @@ SurfaceFlowMap least_lp_map(const Surface& source, const Target& target, const L
         throw Error(Cause::bad_option, "weights must be positive");
     const Eigen::VectorXcd zero = Eigen::VectorXcd::Zero(source.operators.sample_count());
     Flow flow(source, target, constraints, std::move(start), options);
-    return flow.run(zero, [&](FlowScheme scheme) -> std::unique_ptr<TargetEnergy> {
+    SurfaceFlowMap result = flow.run(zero, [&](FlowScheme scheme) -> std::unique_ptr<TargetEnergy> {
         if (scheme == FlowScheme::residual) return std::make_unique<ResidualEnergy>(zero, weights);
         if (scheme == FlowScheme::perturbation) return std::make_unique<PerturbationEnergy>(zero, weights);
         return std::make_unique<BarrierEnergy>(zero, weights, norm.p);
     });
+    result.fits = true;  // none was wanted
+    return result;
 }
 
 }  // namespace beltrami

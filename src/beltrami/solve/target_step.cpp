@@ -126,11 +126,15 @@ TargetStep::Taken TargetStep::step(TargetEnergy& energy, TargetMap& map, double 
     Taken taken;
     taken.energy = before.energy;
     taken.wanted = longest;
-    for (double length = std::min(1.0, largest / longest); length > kShortest; length *= 0.5) {
+    double length = std::min(1.0, largest / longest);
+    while (length > kShortest) {
         TargetMap trial = motion_.moved(map, motion, length);
         const Height after = height(energy, trial);
         const bool lower = !energy.descends() || after.energy < before.energy;
-        if (!lower || after.flips > before.flips) continue;
+        if (!lower || after.flips > before.flips) {
+            length *= 0.5;
+            continue;
+        }
         map = std::move(trial);
         taken.length = length;
         taken.movement = length * longest;

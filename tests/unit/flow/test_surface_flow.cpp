@@ -6,9 +6,11 @@
 
 #include <beltrami/base/error.h>
 #include <beltrami/base/random.h>
+#include <beltrami/flow/ring_module.h>
 #include <beltrami/flow/surface_flow.h>
 #include <beltrami/forms/flat_torus.h>
 #include <beltrami/generate/grids.h>
+#include <beltrami/generate/round_domains.h>
 #include <beltrami/generate/sphere.h>
 #include <beltrami/operators/frames.h>
 #include <beltrami/solve/target_step.h>
@@ -346,6 +348,42 @@ TEST(LeastLpMap, RefusesWhatItCannotUse) {
     for (const LpNorm& norm :
          {LpNorm{1, {}}, LpNorm{2, {1, 2}}, LpNorm{2, std::vector<double>(source.operators.weights.size(), 0)}})
         EXPECT_THROW(least_lp_map(source, problem.target, norm, {}, problem.start), Error);
+}
+
+/// The paper's annulus, radii .4 and 1 with μ = .6 z³, is a ring of module .8695, not log 2.5: no map onto itself has
+/// this μ, and one onto the ring of inner radius e^−.8695 has.
+TEST(RingModule, SaysWhichInnerRadiusACoefficientNeeds) {
+    std::array<double, 2> modules{};
+    for (int i = 0; i < 2; ++i) {
+        const Surface source(annulus(0.4, 1, 64 << i));
+        const Eigen::VectorXcd& z = *source.coordinate();
+        Eigen::VectorXcd mu(source.operators.sample_count());
+        for (int s = 0; s < mu.size(); ++s) {
+            const auto v = source.operators.stencil(s);
+            mu[s] = 0.6 * std::pow((z[v[0]] + z[v[1]] + z[v[2]]) / 3.0, 3);
+        }
+        const int outer = std::abs(z[source.topology.boundary_loops[0][0]]) > 0.7 ? 0 : 1;
+        modules[i] = ring_module(source, mu, outer);
+        EXPECT_NEAR(ring_module(source, Eigen::VectorXcd::Zero(mu.size()), outer), std::log(2.5), 0.01 / (1 + 3 * i));
+        if (i == 0) continue;
+        for (const bool fitting : {false, true}) {
+            const double inner = fitting ? std::exp(-modules[i]) : 0.4;
+            const DomainTarget target(target_domain(TargetCurve::circle(0, 1), {TargetCurve::circle(0, inner)}));
+            Positions start = source.mesh.positions;
+            for (int v = 0; v < start.rows(); ++v) {
+                const double r = std::abs(z[v]);
+                start.row(v) *= std::pow(r, std::log(inner) / std::log(0.4)) / r;
+            }
+            TargetConstraints constraints;
+            constraints.fixed = {source.topology.boundary_loops[outer][0]};
+            slide_boundary(constraints, source, target, start);
+            const SurfaceFlowMap flow =
+                surface_flow(source, target, mu, constraints, target_map(source, target, constraints, start));
+            EXPECT_EQ(flow.fits, fitting) << flow.error.misfit << " " << flow.error.residual;
+            EXPECT_TRUE(flow.distortion.flipped.empty());
+        }
+    }
+    EXPECT_NEAR(modules[1] + (modules[1] - modules[0]) / 3, 0.8695, 1e-3);
 }
 
 TEST(Frames, StereographicCoefficientsNeedTheUnitSphere) {
