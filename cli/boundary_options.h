@@ -28,6 +28,9 @@ class BoundaryOptions {
     BoundaryCondition values(const Shape& shape) const;
     /// The curve along which the values of a loop lie; nothing where none is given by --boundary or --hole.
     std::optional<TargetCurve> curve(int loop) const;
+    /// --boundary and --pin as they were given.
+    const std::string& spec() const { return spec_; }
+    const std::string& pin_file() const { return pin_file_; }
     /// The loop whose image encloses the others.
     int outer_loop() const { return outer_; }
     /// Whether vertices or loops are named, which only one component has.

@@ -1,11 +1,17 @@
 #include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
 
 #include <beltrami/base/error.h>
 #include <beltrami/charts/chart_places.h>
 #include <beltrami/flow/beltrami_flow.h>
+#include <beltrami/flow/ring_module.h>
 #include <beltrami/solve/quasiconformal_map.h>
 #include <beltrami/starts/target_model.h>
+#include <beltrami/targets/mesh_target.h>
 
+#include "along_target.h"
 #include "boundary_options.h"
 #include "command.h"
 #include "homotopy_options.h"
@@ -15,6 +21,7 @@
 #include "onto_options.h"
 #include "output.h"
 #include "page.h"
+#include "space_target.h"
 #include "start_map_option.h"
 #include "words.h"
 
@@ -27,13 +34,18 @@ class Flow final : public Command {
     explicit Flow(CLI::App& parent) {
         CLI::App* app = parent.add_subcommand(
             "flow",
-            "the map with a given Beltrami coefficient: with prescribed boundary values, or onto a target along whose "
-            "curves the boundary slides (the Beltrami holomorphic flow of Ng, Gu and Lui)");
-        app->add_option("SOURCE", source_,
-                        "OBJ, PLY, OFF or STL; one component with a boundary, with --onto of genus 0")
+            "the map with a given Beltrami coefficient: with prescribed boundary values, onto a target along whose "
+            "curves the boundary slides (the Beltrami holomorphic flow of Ng, Gu and Lui), or along a surface in "
+            "space, "
+            "there also that of least distortion (the discrete Beltrami flow of Wong and Zhao)");
+        app->add_option(
+               "SOURCE", source_,
+               "OBJ, PLY, OFF or STL; one component with a boundary, with --onto of genus 0, along a surface in "
+               "space of any kind")
             ->required();
         output_.add_to(*app);
-        coefficient_.add_to(*app, "the Beltrami coefficient of the map")->required();
+        coefficient_.add_to(*app, "the Beltrami coefficient of the map");
+        along_.add_to(*app);
         boundary_.add_to(*app);
         onto_.add_to(*app);
         homotopy_.add_to(*app);
@@ -64,13 +76,18 @@ class Flow final : public Command {
         Record& record = record_;
         record.command = "flow";
         input_ = mesh_options_.load(source_, record.warnings);
-        boundary_.load(input_);
+        if (!AlongTarget::says_how_it_moves(boundary_.spec()) && !names_surface(onto_.path()) && !along_.minimizes())
+            boundary_.load(input_);
         homotopy_.load();
         metric_.load(input_);
         const double start = seconds();
         const Surface source = metric_.surface_of(std::move(input_.mesh));
         add_findings(source.findings, record.warnings);
         record.source = source_record(source, input_.unit);
+        if (along_surface(source)) {
+            follow(source, start, record);
+            return 0;
+        }
         const Eigen::VectorXcd mu = coefficient_.values(source);
         record.flow.emplace();
         record.flow->coefficient = coefficient_.inputs()[0].path;
@@ -94,7 +111,7 @@ class Flow final : public Command {
         };
         add(coefficient_.inputs());
         add(homotopy_.inputs());
-        add(onto_.inputs());
+        if (!names_surface(onto_.path())) add(onto_.inputs());
         add(start_map_.inputs());
         add(metric_.inputs());
         inputs.push_back({"SOURCE", source_});
@@ -102,6 +119,15 @@ class Flow final : public Command {
         outputs.insert(outputs.begin(), {"-o", output_.path()});
         common_.check_files(inputs, std::move(outputs));
         options_.validate();
+        if (coefficient_.given() == along_.minimizes())
+            throw Error(Cause::bad_option,
+                        coefficient_.given() ? "--mu and --minimize-lp are two different maps"
+                                             : "nothing says which map is meant",
+                        "give one of --mu and --minimize-lp");
+        if (follows_by_options()) {
+            check_along();
+            return;
+        }
         if (onto_.given()) {
             if (boundary_.given())
                 throw Error(Cause::bad_option,
@@ -116,6 +142,8 @@ class Flow final : public Command {
         }
         if (const std::string stray = onto_.stray(); !stray.empty())
             throw Error(Cause::bad_option, stray + " belongs to --onto");
+        if (const std::string stray = along_.stray(); !stray.empty())
+            throw Error(Cause::bad_option, stray + " belongs to --onto a surface in space");
         if (!boundary_.given())
             throw Error(Cause::bad_option, "the coefficient alone does not say where the boundary goes",
                         "give --boundary, --hole or --pin, or --onto TARGET");
@@ -124,6 +152,88 @@ class Flow final : public Command {
                         "with prescribed boundary values the map is one linear solve: it has no start, and the class "
                         "that the coefficient gives it",
                         "leave out --start-map, --turns and --waypoints");
+    }
+
+    /// Whether the options alone say that the map goes along a surface in space.
+    bool follows_by_options() const {
+        return names_surface(onto_.path()) || along_.minimizes() || AlongTarget::says_how_it_moves(boundary_.spec());
+    }
+    bool along_surface(const Surface& source) const {
+        return onto_.given() && (follows_by_options() || source.topology.boundary_loops.empty());
+    }
+
+    void check_along() const {
+        if (!onto_.given())
+            throw Error(Cause::bad_option,
+                        along_.minimizes() ? "--minimize-lp is about maps along a surface"
+                                           : "--boundary " + boundary_.spec() + " is about maps along a surface",
+                        "give --onto TARGET");
+        if (!boundary_.spec().empty() && !AlongTarget::says_how_it_moves(boundary_.spec()))
+            throw Error(Cause::bad_option,
+                        "--boundary " + boundary_.spec() +
+                            " says where the boundary goes, but along "
+                            "a surface in space it is only to be said how it moves",
+                        "give --boundary fixed, tangential or free, and --pin");
+        const std::string stray = onto_.stray();
+        if (homotopy_.given() || (!stray.empty() && stray != "--places"))
+            throw Error(
+                Cause::bad_option,
+                (stray.empty() || stray == "--places" ? std::string("--turns and --waypoints do") : stray + " does") +
+                    " not belong to a map along a surface in space",
+                "leave it out; --start-map says where the map begins");
+    }
+
+    /// Along a surface in space.
+    void follow(const Surface& source, double start, Record& record) {
+        check_along();
+        if (!names_surface(onto_.path())) onto_.load(input_, record.warnings);
+        std::optional<Eigen::VectorXcd> mu;
+        record.surface_flow.emplace();
+        if (coefficient_.given()) {
+            mu = coefficient_.values(source);
+            record.surface_flow->coefficient = coefficient_.inputs()[0].path;
+        }
+        const SurfaceFlowMap flow = [&] {
+            Progress progress(!common_.quiet);
+            SurfaceFlowOptions options;
+            options.tolerance = options_.tolerance;
+            options.max_iterations = options_.max_iterations;
+            options.progress = [&](int iteration, const SurfaceFlowIteration& now, const TargetMap&) {
+                progress.show(iteration, now.error.l2, "rms of mu's error");
+                return true;
+            };
+            return along_.run({source, input_, onto_, start_map_, boundary_.spec(), boundary_.pin_file(), mu, options},
+                              *record.surface_flow, record.warnings);
+        }();
+        record.solve.emplace();
+        record.solve->iterations = flow.iterations;
+        record.solve->termination = to_string(flow.termination);
+        record.solve->factorizations = flow.factorizations;
+        record.solve->seconds_total = seconds() - start;
+        if (mu && !flow.fits) name_module(source, *mu, record);
+        record.map = map_record(flow.distortion);
+        const Positions images = positions_of(flow.map.points);
+        if (AlongTarget::flat(onto_)) {
+            output_.write(source.mesh, Eigen::VectorXcd(images.col(0) + Complex(0, 1) * images.col(1)), flow.distortion,
+                          input_.attributes, input_.unit);
+        } else {
+            write_at(output_.path(), source.mesh.faces, images, flow.distortion, input_.attributes);
+        }
+        if (onto_.surface()) onto_.write_places(places_of(flow.map.points));
+        write_page(common_.report, source.mesh, {{"flow", images, flow.distortion.face_abs_mu}}, {}, record, source_);
+        finish(record, common_, "flow", {output_.path(), onto_.places_file(), common_.json, common_.report});
+    }
+
+    /// What a ring would have to be for the coefficient.
+    static void name_module(const Surface& source, const Eigen::VectorXcd& mu, Record& record) {
+        if (source.topology.genus != 0 || source.topology.boundary_loops.size() != 2 ||
+            source.operators.sample_count() != source.mesh.face_count())
+            return;
+        const double module = ring_module(source, mu);
+        record.warnings.push_back(
+            {WarningKind::coefficient, fmt::format("the coefficient is that of maps onto rings of module {:.4f}, with "
+                                                   "radii 1 and {:.4f}",
+                                                   module, std::exp(-module))});
     }
 
     /// A loop of which nothing is said has been forgotten.
@@ -209,6 +319,7 @@ class Flow final : public Command {
         record.flow->error = flow.error;
         record.flow->loops = flow.loops;
         append(record.warnings, flow.warnings);
+        if (!flow.fits) name_module(source, mu, record);
         if (circles) {
             const std::vector<Complex> images(flow.map.begin(), flow.map.end());
             const std::vector<MeshPoint> places = locate_in_chart(*onto_.surface(), circles->chart.vertices, images);
@@ -233,6 +344,7 @@ class Flow final : public Command {
     FlowOptions options_;
     OutputOptions output_;
     MuOption coefficient_;
+    AlongTarget along_;
     BoundaryOptions boundary_;
     OntoTarget onto_;
     HomotopyOptions homotopy_;

@@ -11,17 +11,20 @@ namespace {
 const std::map<std::string, CoefficientFrame>& frames() {
     static const std::map<std::string, CoefficientFrame> names{{"samples", CoefficientFrame::samples},
                                                                {"first-edge", CoefficientFrame::first_edge},
-                                                               {"plane", CoefficientFrame::plane}};
+                                                               {"plane", CoefficientFrame::plane},
+                                                               {"stereographic", CoefficientFrame::stereographic}};
     return names;
 }
 
 }  // namespace
 
 CLI::Option* MuOption::add_to(CLI::App& app, const std::string& what) {
-    app.add_option("--mu-frame", frame_,
-                   "the frame of --mu: first-edge, whose real axis is the face's first edge; plane, that of a planar "
-                   "mesh; samples, plane for a planar mesh and else first-edge, as PLY files are written")
-        ->check(CLI::IsMember({"samples", "first-edge", "plane"}))
+    app.add_option(
+           "--mu-frame", frame_,
+           "the frame of --mu: first-edge, whose real axis is the face's first edge; plane, that of a planar "
+           "mesh; stereographic, that of (x + iy)/(1 + z) on the unit sphere; samples, plane for a planar mesh and "
+           "else first-edge, as PLY files are written")
+        ->check(CLI::IsMember({"samples", "first-edge", "plane", "stereographic"}))
         ->capture_default_str();
     return app
         .add_option("--mu", path_,

@@ -21,6 +21,7 @@ class StartMapOption {
     void add_to(CLI::App& app);
     bool given() const { return !path_.empty(); }
     std::vector<NamedFile> inputs() const { return {{"--start-map", path_}}; }
+    const std::string& path() const { return path_; }
     /// #V images; nothing if there is none. Warnings of the reader are added.
     /// @throw Error unreadable, bad_mesh naming what differs from SOURCE
     std::optional<Eigen::VectorXcd> load(const Mesh& source, Warnings& warnings) const;

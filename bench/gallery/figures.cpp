@@ -85,10 +85,26 @@ const Page& handles() {
     return page;
 }
 
+const Page& flows() {
+    static const Page page{
+        "gallery-flow.md",
+        "# Gallery: flows along surfaces\n\n"
+        "Examples of Wong, Zhao, *Computation of quasiconformal surface maps using discrete Beltrami flow*,\n"
+        "2014, made again with beltrami by `./run gallery` ([prescribed coefficients](flow.md)). Seconds on a\n"
+        "busy machine.\n\n",
+        {{"flow_disk", flow_disk},
+         {"flow_sphere", flow_sphere},
+         {"flow_unfolding", flow_unfolding},
+         {"flow_annulus", flow_annulus},
+         {"flow_square", flow_square},
+         {"flow_tori", flow_tori}}};
+    return page;
+}
+
 }  // namespace
 
 const std::vector<Page>& pages() {
-    static const std::vector<Page> list{prescribed(), sliding(), sphere(), handles()};
+    static const std::vector<Page> list{prescribed(), sliding(), sphere(), handles(), flows()};
     return list;
 }
 

@@ -206,4 +206,12 @@ Figure spheres(Output& output);        ///< closed surfaces, scans if the folder
 Figure registrations(Output& output);  ///< closed surfaces carried onto each other with landmarks
 Figure tori(Output& output);           ///< flat metrics of tori and the maps between them
 
+// Along surfaces in space: beside Wong & Zhao.
+Figure flow_disk(Output& output);       ///< Table 5.1
+Figure flow_sphere(Output& output);     ///< Table 5.2
+Figure flow_unfolding(Output& output);  ///< overlapping starts
+Figure flow_annulus(Output& output);    ///< a ring of the wrong module
+Figure flow_square(Output& output);     ///< Table 5.3
+Figure flow_tori(Output& output);       ///< least Lᵖ norm
+
 }  // namespace beltrami::gallery

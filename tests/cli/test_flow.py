@@ -253,5 +253,145 @@ class Sliding(Command):
         self.assertIn("before the map settled", limited["warnings"][0])
 
 
+def octahedral_sphere(levels):
+    """Points and triangles of the unit sphere; 0, 1 and ∞ of the stereographic coordinate are the vertices 4, 0 and 5."""
+    points = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
+    faces = [(0, 2, 4), (2, 1, 4), (1, 3, 4), (3, 0, 4), (2, 0, 5), (1, 2, 5), (3, 1, 5), (0, 3, 5)]
+    points = [np.array(p, float) for p in points]
+    for _ in range(levels):
+        middle, more = {}, []
+
+        def between(a, b):
+            key = (min(a, b), max(a, b))
+            if key not in middle:
+                middle[key] = len(points)
+                sum_ = points[a] + points[b]
+                points.append(sum_ / np.linalg.norm(sum_))
+            return middle[key]
+
+        for a, b, c in faces:
+            ab, bc, ca = between(a, b), between(b, c), between(c, a)
+            more += [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
+        faces = more
+    return np.array(points), np.array(faces)
+
+
+class AlongSurface(Command):
+    def setUp(self):
+        super().setUp()
+        self.points, self.faces = octahedral_sphere(3)
+        self.source, self.out = self.path("sphere.obj"), self.path("out.ply")
+        write_obj(self.source, self.points, self.faces)
+        self.mu = write_rows(self.path("mu.txt"), np.full(len(self.faces), 0.3 + 0.3j))
+        self.pins = self.path("pins.txt")
+        pathlib.Path(self.pins).write_text("0 1 0 0\n4 0 0 1\n5 0 0 -1\n")
+
+    def test_a_coefficient_in_the_stereographic_frame(self):
+        record = self.record("flow", self.source, "--onto", "sphere", "--mu", self.mu, "--mu-frame", "stereographic",
+                             "--pin", self.pins, "--scheme", "perturbation", "-o", self.out)
+        flow = record["surface_flow"]
+        self.assertEqual(flow["start"], "identity")
+        self.assertEqual(flow["held"], 3)
+        self.assertEqual(record["solve"]["termination"], "converged")
+        history = flow["history"]
+        self.assertEqual(len(history["squared"]), record["solve"]["iterations"])
+        self.assertEqual(set(history["scheme"]), {"perturbation"})
+        self.assertEqual(history["flips"][-1], 0)
+        self.assertAlmostEqual(history["squared"][-1], 0.146, delta=0.002)  # beside the paper's .1145
+        self.assertLess(record["map"]["mu"]["max"], 1)
+
+    def test_a_map_comes_back_from_the_coefficient_that_was_written(self):
+        z = (self.points[:, 0] + 1j * self.points[:, 1]) / np.maximum(1 + self.points[:, 2], 1e-300)
+        w = (z + 0.2 * np.conj(z)) / 1.2
+        images = np.column_stack([2 * w.real, 2 * w.imag, 1 - np.abs(w) ** 2]) / (1 + np.abs(w) ** 2)[:, None]
+        images[5] = [0, 0, -1]
+        write_obj(self.path("images.obj"), images, self.faces)
+        first = self.path("first.ply")
+        # All vertices but one are held, so that this map is the given one but for that vertex.
+        self.record("flow", self.source, "--onto", "sphere", "--minimize-lp", "2", "--start-map", self.path("images.obj"),
+                    "--max-iterations", "1", "--pin", self.all_pins(images), "-o", first)
+        record = self.record("flow", self.source, "--onto", "sphere", "--mu", first, "--pin", self.pins, "-o", self.out)
+        self.assertLess(record["surface_flow"]["error"]["sup"], 1e-6)
+        self.assertTrue(record["surface_flow"]["fits"])
+
+    def all_pins(self, images):
+        path = self.path("all.txt")
+        pathlib.Path(path).write_text("".join(f"{v} {x!r} {y!r} {z!r}\n" for v, (x, y, z) in enumerate(images.tolist()) if v != 1))
+        return path
+
+    def test_least_distortion_onto_a_mesh_with_places(self):
+        points, faces = octahedral_sphere(4)
+        write_obj(self.path("target.obj"), points * [1, 1, 1.5], faces)
+        places = self.path("places.txt")
+        record = self.record("flow", self.source, "--onto", self.path("target.obj"), "--minimize-lp", "2", "-o", self.out,
+                             "--places", places)
+        flow = record["surface_flow"]
+        self.assertEqual(flow["start"], "conformal")
+        self.assertEqual(flow["minimized"], {"p": 2, "weight": "area"})
+        self.assertEqual(flow["history"]["flips"][-1], 0)
+        self.assertLess(record["map"]["mu"]["mean"], 0.1)
+        rows = [line.split() for line in pathlib.Path(places).read_text().splitlines() if not line.startswith("#")]
+        self.assertEqual(len(rows), len(self.points))
+
+    def test_tori(self):
+        nu, nv = 32, 16
+        u, v = (2 * np.pi * a.ravel() for a in np.meshgrid(np.arange(nu) / nu, np.arange(nv) / nv, indexing="ij"))
+        points = np.column_stack([(2 + np.cos(v)) * np.cos(u), (2 + np.cos(v)) * np.sin(u), np.sin(v)])
+        at = lambda i, j: (i % nu) * nv + j % nv
+        faces = [f for i in range(nu) for j in range(nv)
+                 for f in [(at(i, j), at(i + 1, j), at(i + 1, j + 1)), (at(i, j), at(i + 1, j + 1), at(i, j + 1))]]
+        write_obj(self.path("torus.obj"), points, np.array(faces))
+        by = {}
+        for weight in ("area", "phi"):
+            record = self.record("flow", self.path("torus.obj"), "--onto", "modified-torus:1", "--minimize-lp", "2",
+                                 "--weight", weight, "-o", self.out)
+            self.assertEqual(record["surface_flow"]["start"], "lattice")
+            self.assertEqual(record["surface_flow"]["history"]["flips"][-1], 0)
+            by[weight] = record["map"]["mu"]
+        self.assertAlmostEqual(by["phi"]["mean"], 0.0929, delta=0.006)
+        self.assertLess(by["phi"]["std"], 0.5 * by["area"]["std"])
+
+    def test_a_ring_of_another_module_is_named(self):
+        points, faces = ring(64, 16, 0.4)
+        write_obj(self.path("ring.obj"), points, faces)
+        z = points[faces].mean(axis=1) @ [1, 1j]
+        mu = write_rows(self.path("ring.txt"), 0.6 * z**3)
+        domain = self.path("ring.json")
+        pathlib.Path(domain).write_text(json.dumps({"outer": {"circle": [0, 0, 1]}, "holes": [{"circle": [0, 0, 0.4]}]}))
+        for boundary in ([], ["--boundary", "tangential"]):
+            record = self.record("flow", self.path("ring.obj"), "--onto", domain, "--mu", mu, "-o", self.out, *boundary)
+            said = [w for w in record["warnings"] if "module" in w]
+            self.assertEqual(len(said), 1)
+            self.assertIn("module 0.869", said[0])
+
+    def test_mistakes(self):
+        def refused(code, *arguments, says):
+            text = self.run_command("flow", self.source, *arguments, "-o", self.out, code=code).stderr
+            self.assertIn(says, text)
+
+        sphere = ["--onto", "sphere"]
+        refused(2, *sphere, says="give one of --mu and --minimize-lp")
+        refused(2, *sphere, "--mu", self.mu, "--minimize-lp", "2", says="two different maps")
+        refused(2, "--minimize-lp", "2", says="give --onto TARGET")
+        refused(2, *sphere, "--minimize-lp", "1", says="--minimize-lp")
+        refused(2, *sphere, "--mu", self.mu, "--mu-frame", "sideways", says="--mu-frame")
+        refused(2, *sphere, "--minimize-lp", "2", "--weight", "phi", says="genus 1")
+        refused(2, *sphere, "--minimize-lp", "2", "--boundary", "disk", says="fixed, tangential or free")
+        refused(2, *sphere, "--minimize-lp", "2", "--loops", "0:0", says="--loops")
+        refused(2, "--onto", "torus:1", "--minimize-lp", "2", says="torus:R,r")
+        refused(2, "--onto", "torus:1,2", "--minimize-lp", "2", says="R > r > 0")
+        refused(2, "--onto", "torus:2,1", "--minimize-lp", "2", says="--start-map")
+        refused(2, *sphere, "--minimize-lp", "2", "--boundary", "tangential", "--scheme", "fast", says="--scheme")
+        short = write_rows(self.path("short.txt"), np.zeros(5))
+        refused(3, *sphere, "--mu", short, says="short.txt")
+        large = write_rows(self.path("large.txt"), np.full(len(self.faces), 1.0))
+        refused(3, *sphere, "--mu", large, says="large.txt")
+        pathlib.Path(self.pins).write_text("0 1 0\n")
+        refused(3, *sphere, "--minimize-lp", "2", "--pin", self.pins, says="pins.txt")
+        pathlib.Path(self.pins).write_text("0 1 0 0\n0 1 0 0\n")
+        refused(5, *sphere, "--minimize-lp", "2", "--pin", self.pins, says="held twice")
+        self.assertFalse(pathlib.Path(self.out).exists())
+
+
 if __name__ == "__main__":
     unittest.main()

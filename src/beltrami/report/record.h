@@ -7,7 +7,7 @@
 #include <beltrami/base/public.h>
 #include <beltrami/base/warning.h>
 #include <beltrami/charts/uniformization.h>
-#include <beltrami/flow/beltrami_flow.h>
+#include <beltrami/flow/surface_flow.h>
 #include <beltrami/forms/flat_torus.h>
 #include <beltrami/forms/period_matrix.h>
 #include <beltrami/registration/register_open.h>
@@ -163,6 +163,19 @@ struct FlowRecord {
     std::vector<LoopOnto> loops;  ///< where the boundary slides
 };
 
+/// A map along a surface in space, with a prescribed coefficient or of least Lᵖ norm.
+struct SurfaceFlowRecord {
+    std::string target;                      ///< its file or name
+    std::optional<std::string> coefficient;  ///< its file
+    std::optional<double> p;                 ///< else of the norm, and by what it counts
+    std::string weight;
+    std::string start;          ///< where it began: identity, conformal, lattice, or a file
+    int held = 0, sliding = 0;  ///< vertices
+    CoefficientError error;     ///< from the coefficient, or from 0
+    bool fits = true;
+    std::vector<SurfaceFlowIteration> history;
+};
+
 /// Distances of some shapes, and their clusters.
 struct DistancesRecord {
     std::vector<std::string> shapes;
@@ -206,6 +219,7 @@ struct Record {
     std::optional<TorusRecord> torus;
     std::optional<RegistrationRecord> registration;
     std::optional<FlowRecord> flow;
+    std::optional<SurfaceFlowRecord> surface_flow;
     std::optional<GridRecord> grid;
     std::optional<DistancesRecord> distances;
     std::vector<MethodRecord> comparison;

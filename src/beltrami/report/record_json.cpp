@@ -169,15 +169,52 @@ Json to_object(const RegistrationRecord& registration) {
     return object;
 }
 
+Json error_of(const CoefficientError& error) {
+    return {{"l2", number(error.l2)},
+            {"sup", number(error.sup)},
+            {"residual", number(error.residual)},
+            {"misfit", number(error.misfit)}};
+}
+
 Json to_object(const FlowRecord& flow) {
     Json object = {{"coefficient", flow.coefficient}};
     if (flow.target) object["target"] = *flow.target;
-    object["error"] = {{"l2", number(flow.error.l2)},
-                       {"sup", number(flow.error.sup)},
-                       {"residual", number(flow.error.residual)},
-                       {"misfit", number(flow.error.misfit)}};
+    object["error"] = error_of(flow.error);
     object["fits"] = flow.fits;
     if (flow.target) object["loops"] = to_rows(flow.loops);
+    return object;
+}
+
+/// A column of a history: one number a step.
+template <class Member>
+Json column(const std::vector<SurfaceFlowIteration>& history, Member&& member) {
+    Json values = Json::array();
+    for (const SurfaceFlowIteration& step : history) values.push_back(member(step));
+    return values;
+}
+
+Json to_object(const std::vector<SurfaceFlowIteration>& history) {
+    using Step = SurfaceFlowIteration;
+    return {{"scheme", column(history, [](const Step& step) { return to_string(step.scheme); })},
+            {"energy", column(history, [](const Step& step) { return number(step.energy); })},
+            {"length", column(history, [](const Step& step) { return number(step.length); })},
+            {"movement", column(history, [](const Step& step) { return number(step.movement); })},
+            {"l2", column(history, [](const Step& step) { return number(step.error.l2); })},
+            {"squared", column(history, [](const Step& step) { return number(step.squared_error); })},
+            {"sup", column(history, [](const Step& step) { return number(step.error.sup); })},
+            {"flips", column(history, [](const Step& step) { return step.flips; })}};
+}
+
+Json to_object(const SurfaceFlowRecord& flow) {
+    Json object = {{"target", flow.target}};
+    if (flow.coefficient) object["coefficient"] = *flow.coefficient;
+    if (flow.p) object["minimized"] = {{"p", number(*flow.p)}, {"weight", flow.weight}};
+    object["start"] = flow.start;
+    object["held"] = flow.held;
+    object["sliding"] = flow.sliding;
+    object["error"] = error_of(flow.error);
+    object["fits"] = flow.fits;
+    object["history"] = to_object(flow.history);
     return object;
 }
 
@@ -346,6 +383,7 @@ std::string to_json(const Record& record) {
     if (record.torus) json["torus"] = to_object(*record.torus);
     if (record.registration) json["registration"] = to_object(*record.registration);
     if (record.flow) json["flow"] = to_object(*record.flow);
+    if (record.surface_flow) json["surface_flow"] = to_object(*record.surface_flow);
     if (record.grid) json["grid"] = to_object(*record.grid);
     if (record.distances) json["distances"] = to_object(*record.distances);
     if (!record.comparison.empty()) {

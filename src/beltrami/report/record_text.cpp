@@ -47,6 +47,14 @@ std::string lines_of(const UniformizationRecord& uniformization) {
 }
 
 /// How the map to the sphere was found.
+std::string line_of(const CoefficientError& error) {
+    return fmt::format(
+        "coefficient: off by {:.3g} (root mean square), {:.3g} at most; relative residual {:.3g}, of it {:.3g} no "
+        "error "
+        "of the mesh\n",
+        error.l2, error.sup, error.residual, error.misfit);
+}
+
 std::string line_of(const SphereRecord& sphere) {
     std::string text = "a sphere: no moduli; ";
     switch (sphere.method) {
@@ -180,11 +188,8 @@ std::string to_remarks(const Record& record) {
     if (record.periods) text += lines_of(*record.periods);
     if (record.torus) text += line_of(*record.torus);
     if (record.registration) text += lines_of(*record.registration);
-    if (record.flow)
-        text += fmt::format(
-            "coefficient: off by {:.3g} (root mean square), {:.3g} at most; relative residual {:.3g}, of it {:.3g} no "
-            "error of the mesh\n",
-            record.flow->error.l2, record.flow->error.sup, record.flow->error.residual, record.flow->error.misfit);
+    if (record.flow) text += line_of(record.flow->error);
+    if (record.surface_flow && record.surface_flow->coefficient) text += line_of(record.surface_flow->error);
     if (record.least_maximum)
         text += fmt::format("largest |mu| of a face: {:.4f} before, {:.4f} after\n", record.least_maximum->before,
                             record.least_maximum->after);

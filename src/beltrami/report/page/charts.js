@@ -142,4 +142,18 @@ export function drawCharts() {
     drawLine("history-k", k, "k", false, "");
     drawLine("history-largest", largest.map(m => m > 0 ? Math.min(m, 1) : null), "largest |μ|", false, "");
     drawLine("history-change", change.map(c => c > 0 ? c : null), "change", true, "second");
+    drawFlow(data.record.surface_flow);
+}
+
+// The steps of a flow along a surface, as the record has them.
+function drawFlow(flow) {
+    $("flow-section").hidden = !flow;
+    if (!flow) return;
+    const positive = values => values.map(value => value > 0 ? value : null), history = flow.history;
+    drawLine("flow-energy", positive(history.energy), "energy of the step", true, "");
+    drawLine("flow-l2", positive(history.l2), "root mean square of |μ_f − μ|", true, "");
+    drawLine("flow-squared", positive(history.squared), "Σ A |μ_f − μ|²", true, "");
+    drawLine("flow-sup", positive(history.sup), "largest |μ_f − μ|", true, "");
+    drawLine("flow-flips", history.flips, "flipped", false, "second");
+    drawLine("flow-length", positive(history.length), "part of the step taken", true, "second");
 }
