@@ -220,7 +220,7 @@ class Flow final : public Command {
             write_at(output_.path(), source.mesh.faces, images, flow.distortion, input_.attributes);
         }
         if (onto_.surface()) onto_.write_places(places_of(flow.map.points));
-        write_page(common_.report, source.mesh, {{"flow", images, flow.distortion.face_abs_mu}}, {}, record, source_);
+        write_page(common_, source.mesh, {{"flow", images, flow.distortion.face_abs_mu}}, {}, record, source_);
         finish(record, common_, "flow", {output_.path(), onto_.places_file(), common_.json, common_.report});
     }
 
