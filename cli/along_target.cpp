@@ -133,7 +133,7 @@ void AlongTarget::add_to(CLI::App& app) {
         ->capture_default_str();
     app.add_option("--scheme", scheme_,
                    "onto a surface in space: steps for the residual, by the perturbation of mu (Wong and Zhao), or "
-                   "against a barrier that no face crosses; automatic: the last as soon as nothing is flipped")
+                   "against a barrier that no face crosses; automatic: in this order, the last as soon as it does")
         ->check(CLI::IsMember({"automatic", "residual", "perturbation", "barrier"}))
         ->capture_default_str();
 }

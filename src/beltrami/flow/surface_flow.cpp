@@ -19,29 +19,36 @@ namespace {
 
 constexpr double kLongestMotion = 0.2;  // of the image's diameter
 constexpr double kWhole = 0.4;          // step length from which a small decrease means that the energy has settled
-constexpr double kHeldUp = 1e-3;        // step length below which residual steps have come to an end
+constexpr double kLongStep = 0.2, kMuchLess = 0.9;  // of perturbations that are gone on with, and of the error
+constexpr double kHeldUp = 1e-3;                    // step length below which residual steps have come to an end
 /// A step below this part of the image's size that lowers nothing is rounding: the energy is flat there.
 constexpr double kRounding = 1e-6;
 
-/// The step that is to be taken next where the scheme is automatic: barriers need upright samples; where residual steps
-/// end with flipped ones perturbation steps are taken until nothing is flipped.
+/// The step that is to be taken next where the scheme is automatic. While faces are flipped: residual steps, and when
+/// these have come to an end perturbations. Then, towards a coefficient, perturbations as long as they are long and
+/// gain much: from afar they come nearer than the barrier's steps. The barrier last.
 class Scheme {
   public:
-    explicit Scheme(FlowScheme wanted) : wanted_(wanted) {}
+    Scheme(FlowScheme wanted, bool approach) : wanted_(wanted), approach_(approach) {}
     FlowScheme now(int flips) const {
         if (wanted_ != FlowScheme::automatic) return wanted_;
-        if (flips == 0) return FlowScheme::barrier;
-        return turned_ ? FlowScheme::perturbation : FlowScheme::residual;
+        if (flips > 0) return unturned_ ? FlowScheme::residual : FlowScheme::perturbation;
+        return approach_ ? FlowScheme::perturbation : FlowScheme::barrier;
+    }
+    /// Told of every step.
+    void taken(double length, int flips, double before, double after) {
+        if (flips == 0 && (length < kLongStep || after > kMuchLess * before)) approach_ = false;
     }
     /// Whether another kind of step is left after those taken have come to an end.
     bool turns(int flips) {
-        if (wanted_ != FlowScheme::automatic || flips == 0 || turned_) return false;
-        return turned_ = true;
+        if (wanted_ != FlowScheme::automatic) return false;
+        bool& left = flips > 0 ? unturned_ : approach_;
+        return std::exchange(left, false);
     }
 
   private:
     FlowScheme wanted_;
-    bool turned_ = false;
+    bool approach_, unturned_ = true;
 };
 
 void require_start(const Surface& source, const TargetConstraints& constraints, const TargetMap& start) {
@@ -54,12 +61,13 @@ void require_start(const Surface& source, const TargetConstraints& constraints, 
 /// The flow from a start, whatever it makes small.
 class Flow {
   public:
+    /// @param approach whether the coefficient that is wanted is one by which perturbations may come nearer
     Flow(const Surface& source, const Target& target, const TargetConstraints& constraints, TargetMap start,
-         const SurfaceFlowOptions& options)
+         const SurfaceFlowOptions& options, bool approach)
         : source_(source),
           options_(options),
           motion_(source, target, constraints),
-          scheme_(options.scheme),
+          scheme_(options.scheme, approach),
           step_(source.operators, motion_),
           vertex_weights_(weights_of(source.operators)) {
         result_.map = std::move(start);
@@ -106,6 +114,9 @@ class Flow {
             scheme, taken.energy, taken.length, taken.movement / size_, coefficient_error(source_, result_.map, mu),
             0,      flips_};
         now.squared_error = now.error.l2 * now.error.l2 * source_.operators.area();
+        const double before =
+            result_.history.empty() ? std::numeric_limits<double>::infinity() : result_.history.back().squared_error;
+        if (scheme == FlowScheme::perturbation) scheme_.taken(taken.length, flips_, before, now.squared_error);
         result_.history.push_back(now);
         if (options_.progress && !options_.progress(result_.iterations, now, result_.map))
             throw Error(Cause::cancelled, "cancelled after step " + std::to_string(result_.iterations));
@@ -241,7 +252,7 @@ SurfaceFlowMap surface_flow(const Surface& source, const Target& target, const E
     options.validate();
     require_coefficient(source, mu);
     require_start(source, constraints, start);
-    Flow flow(source, target, constraints, std::move(start), options);
+    Flow flow(source, target, constraints, std::move(start), options, true);
     SurfaceFlowMap result = flow.run(mu, [&](FlowScheme scheme) -> std::unique_ptr<TargetEnergy> {
         const std::vector<double>& areas = source.operators.weights;
         if (scheme == FlowScheme::residual) return std::make_unique<ResidualEnergy>(mu, areas);
@@ -264,7 +275,7 @@ SurfaceFlowMap least_lp_map(const Surface& source, const Target& target, const L
     if (std::any_of(weights.begin(), weights.end(), [](double w) { return !(w > 0); }))
         throw Error(Cause::bad_option, "weights must be positive");
     const Eigen::VectorXcd zero = Eigen::VectorXcd::Zero(source.operators.sample_count());
-    Flow flow(source, target, constraints, std::move(start), options);
+    Flow flow(source, target, constraints, std::move(start), options, false);
     SurfaceFlowMap result = flow.run(zero, [&](FlowScheme scheme) -> std::unique_ptr<TargetEnergy> {
         if (scheme == FlowScheme::residual) return std::make_unique<ResidualEnergy>(zero, weights);
         if (scheme == FlowScheme::perturbation) return std::make_unique<PerturbationEnergy>(zero, weights);

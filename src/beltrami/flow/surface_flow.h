@@ -11,7 +11,8 @@ namespace beltrami BELTRAMI_PUBLIC {
 
 /// Steps of a flow along a target.
 enum class FlowScheme {
-    automatic,     ///< barrier as soon as nothing is flipped; before, residual, and perturbation where that is held up
+    automatic,     ///< residual while faces are flipped, and where that is held up perturbation; perturbation while it
+                   ///< gains much towards a coefficient; then barrier
     residual,      ///< Gauss-Newton steps for Σ W |∂̄f − σ∂f|²
     perturbation,  ///< those of Wong & Zhao: the motion that changes μ towards σ to first order
     barrier,       ///< Gauss-Newton steps for an energy that is infinite where a face is flipped

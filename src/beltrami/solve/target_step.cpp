@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <beltrami/base/error.h>
 #include <beltrami/base/parallel.h>
@@ -89,7 +90,8 @@ void TargetStep::assemble(const TargetEnergy& energy, const TargetMap& map,
         }
 }
 
-Positions TargetStep::direction(TargetEnergy& energy, const TargetMap& map) {
+/// Nothing where no shift of the diagonal makes the system definite.
+std::optional<Positions> TargetStep::direction(const TargetEnergy& energy, const TargetMap& map) {
     const Eigen::VectorXd units = local_sizes(operators_, positions_of(map.points));
     std::vector<TargetMotion::Directions> ways;
     ways.reserve(place_.size());
@@ -107,7 +109,8 @@ Positions TargetStep::direction(TargetEnergy& energy, const TargetMap& map) {
             solution = system_.solve(-gradient_);
             break;
         } catch (const Error& error) {
-            if (error.cause() != Cause::not_solved || shift >= kLargestShift) throw;
+            if (error.cause() != Cause::not_solved) throw;
+            if (shift >= kLargestShift) return {};
         }
     }
     Positions motion = Positions::Zero(static_cast<Eigen::Index>(place_.size()), 3);
@@ -121,14 +124,16 @@ Positions TargetStep::direction(TargetEnergy& energy, const TargetMap& map) {
 TargetStep::Taken TargetStep::step(TargetEnergy& energy, TargetMap& map, double largest) {
     energy.prepare(operators_, positions_of(map.points), normals_of(map.points));
     const Height before = height(energy, map);
-    const Positions motion = direction(energy, map);
-    const double longest = motion.rowwise().norm().maxCoeff();
+    const std::optional<Positions> motion = direction(energy, map);
     Taken taken;
     taken.energy = before.energy;
+    taken.wanted = std::numeric_limits<double>::infinity();
+    if (!motion) return taken;
+    const double longest = motion->rowwise().norm().maxCoeff();
     taken.wanted = longest;
     double length = std::min(1.0, largest / longest);
     while (length > kShortest) {
-        TargetMap trial = motion_.moved(map, motion, length);
+        TargetMap trial = motion_.moved(map, *motion, length);
         const Height after = height(energy, trial);
         const bool lower = !energy.descends() || after.energy < before.energy;
         if (!lower || after.flips > before.flips) {

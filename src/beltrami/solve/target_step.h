@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include <beltrami/linear/element_system.h>
 #include <beltrami/solve/target_energy.h>
 #include <beltrami/solve/target_motion.h>
@@ -23,9 +26,8 @@ class TargetStep {
         double fallen = 0;    ///< by which part the energy fell
         bool damped = false;  ///< the step was shortened in some directions
     };
-    /// Takes one step.
+    /// Takes one step, or none where faces have collapsed so far that its system cannot be solved.
     /// @param largest motion of a vertex
-    /// @throw Error not_solved
     Taken step(TargetEnergy& energy, TargetMap& map, double largest);
 
     int factorization_count() const { return system_.factorization_count(); }
@@ -36,7 +38,7 @@ class TargetStep {
         int flips = 0;
     };
     Height height(const TargetEnergy& energy, const TargetMap& map) const;
-    Positions direction(TargetEnergy& energy, const TargetMap& map);
+    std::optional<Positions> direction(const TargetEnergy& energy, const TargetMap& map);
     void assemble(const TargetEnergy& energy, const TargetMap& map, const std::vector<TargetMotion::Directions>& ways);
     void damp(double length);
 

@@ -137,6 +137,10 @@ TEST(SurfaceFlow, ReachesTheErrorsOfTheSphereTable) {
         const SurfaceFlowMap flow = problem.flow(mu, by(FlowScheme::perturbation, 1e-5));
         EXPECT_LE(flow.history.back().squared_error, 1.3 * theirs[level - 3]) << level;
         EXPECT_TRUE(flow.distortion.flipped.empty());
+        const SurfaceFlowMap automatic = problem.flow(mu, by(FlowScheme::automatic, 1e-5));
+        EXPECT_LE(automatic.history.back().squared_error, theirs[level - 3]) << level;
+        EXPECT_EQ(automatic.history.front().scheme, FlowScheme::perturbation);
+        EXPECT_EQ(automatic.history.back().scheme, FlowScheme::barrier);
     }
 }
 
