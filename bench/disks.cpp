@@ -18,7 +18,7 @@
 #include <beltrami/charts/round_disk.h>
 #include <beltrami/io/write_mesh.h>
 #include <beltrami/operators/distortion.h>
-#include <beltrami/uniformize/flatten.h>
+#include <beltrami/uniformize/fold_free_flattening.h>
 
 #include "openings.h"
 
@@ -42,8 +42,13 @@ std::string tried(const Map& map) {
 void row(const std::string& name, const Mesh& mesh) {
     try {
         const Surface source(mesh);
-        const std::string flat =
-            tried([&] { return summary(distortion(source.operators, flatten(source.mesh).positions)); });
+        const std::string flat = tried([&]() -> std::string {
+            const FoldFreeFlattening found = fold_free_flattening(source);
+            if (!found.fold_free) return "– | folds do not open";
+            return summary(distortion(source.operators, found.flattening.positions)) +
+                   (found.unfolded.empty() ? "" : fmt::format(", {} unfolded", found.unfolded.size())) +
+                   (found.kept_boundary ? "" : " with the boundary");
+        });
         const std::string disk = tried([&]() -> std::string {
             const FoldFreeDisk found = fold_free_disk(source, round_disk_chart(source).vertices);
             if (!found.fold_free) return "– | folds do not open";

@@ -2,13 +2,10 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <map>
-#include <queue>
-#include <utility>
 #include <vector>
 
+#include <beltrami/forms/cut_open.h>
 #include <beltrami/mesh/cut.h>
 #include <beltrami/mesh/submesh.h>
 #include <beltrami/mesh/topology.h>
@@ -30,45 +27,6 @@ double boundary_length(const Mesh& mesh) {
         for (std::size_t i = 0; i < loop.size(); ++i)
             length += (mesh.positions.row(loop[(i + 1) % loop.size()]) - mesh.positions.row(loop[i])).norm();
     return length;
-}
-
-/// Distances along edges from a vertex, and the vertex before each on its way.
-struct Distances {
-    std::vector<double> distance;
-    std::vector<int> before;
-};
-Distances distances_from(const Mesh& mesh, int start) {
-    std::vector<std::vector<int>> neighbours(mesh.vertex_count());
-    for (int f = 0; f < mesh.face_count(); ++f) {
-        const auto v = mesh.faces[f];
-        for (std::size_t i = 0; i < v.size(); ++i) neighbours[v[i]].push_back(v[(i + 1) % v.size()]);
-    }
-    Distances result{std::vector<double>(mesh.vertex_count(), std::numeric_limits<double>::infinity()),
-                     std::vector<int>(mesh.vertex_count(), -1)};
-    std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>> waiting;
-    result.distance[start] = 0;
-    waiting.emplace(0, start);
-    while (!waiting.empty()) {
-        const auto [distance, v] = waiting.top();
-        waiting.pop();
-        if (distance > result.distance[v]) continue;
-        for (const int w : neighbours[v]) {
-            const double further = distance + (mesh.positions.row(w) - mesh.positions.row(v)).norm();
-            if (further >= result.distance[w]) continue;
-            result.distance[w] = further;
-            result.before[w] = v;
-            waiting.emplace(further, w);
-        }
-    }
-    return result;
-}
-
-int farthest(const Distances& from) {
-    int best = -1;
-    for (std::size_t v = 0; v < from.distance.size(); ++v)
-        if (std::isfinite(from.distance[v]) && (best < 0 || from.distance[v] > from.distance[best]))
-            best = static_cast<int>(v);
-    return best;
 }
 
 }  // namespace
@@ -99,34 +57,7 @@ Mesh opened_by_plane(const Mesh& closed, double part) {
 }
 
 Mesh opened_by_seam(const Mesh& closed) {
-    const int from = farthest(distances_from(closed, closed.faces[0][0]));
-    const Distances ways = distances_from(closed, from);
-    std::vector<int> path{farthest(ways)};
-    while (path.back() != from) path.push_back(ways.before[path.back()]);
-
-    std::map<std::pair<int, int>, int> face_at;  // left of a half-edge
-    for (int f = 0; f < closed.face_count(); ++f)
-        for (std::size_t i = 0; i < 3; ++i) face_at[{closed.faces[f][i], closed.faces[f][(i + 1) % 3]}] = f;
-    std::vector<std::vector<int>> faces(closed.face_count());
-    for (int f = 0; f < closed.face_count(); ++f) faces[f].assign(closed.faces[f].begin(), closed.faces[f].end());
-    Mesh open;
-    const Eigen::Index count = closed.positions.rows(), added = static_cast<Eigen::Index>(path.size()) - 2;
-    open.positions.resize(count + added, closed.positions.cols());
-    open.positions.topRows(count) = closed.positions;
-    for (std::size_t i = 1; i + 1 < path.size(); ++i) {
-        const int v = path[i], copy = static_cast<int>(count + static_cast<Eigen::Index>(i)) - 1;
-        open.positions.row(copy) = closed.positions.row(v);
-        // The faces on the left of the path, from the edge ahead around to the one behind.
-        for (int w = path[i + 1]; w != path[i - 1];) {
-            const int f = face_at.at({v, w});
-            const auto corners = closed.faces[f];
-            const auto at = std::find(corners.begin(), corners.end(), v) - corners.begin();
-            faces[f][static_cast<std::size_t>(at)] = copy;
-            w = corners[static_cast<std::size_t>(at + 2) % 3];
-        }
-    }
-    for (const auto& face : faces) open.faces.add({face[0], face[1], face[2]});
-    return open;
+    return cut_open(Surface(closed)).disk;
 }
 
 }  // namespace beltrami::bench

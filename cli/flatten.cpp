@@ -1,7 +1,10 @@
+#include <optional>
+
 #include <beltrami/base/error.h>
 #include <beltrami/charts/fold_free_disk.h>
 #include <beltrami/charts/round_disk.h>
-#include <beltrami/uniformize/flatten.h>
+#include <beltrami/forms/cut_open.h>
+#include <beltrami/uniformize/fold_free_flattening.h>
 
 #include "command.h"
 #include "mesh_input.h"
@@ -17,8 +20,13 @@ class Flatten final : public Command {
   public:
     explicit Flatten(CLI::App& parent) {
         CLI::App* app = parent.add_subcommand(
-            "flatten", "conformal map of a disk-like surface to the plane, by conformal equivalence");
-        app->add_option("SOURCE", source_, "OBJ, PLY, OFF or STL; a disk: one component, one boundary loop, genus 0")
+            "flatten",
+            "conformal map of a disk-like surface, or of a closed one that is cut open, to the plane, by conformal "
+            "equivalence");
+        app->add_option(
+               "SOURCE", source_,
+               "OBJ, PLY, OFF or STL; one component: a disk, with one boundary loop and genus 0, or closed, of any "
+               "genus; that is cut open along edges, and vt is written per face corner")
             ->required();
         output_.add_to(*app);
         app->add_flag("--disk", disk_, "go on to the round unit disk");
@@ -37,41 +45,29 @@ class Flatten final : public Command {
         const Surface source(std::move(input.mesh));
         add_findings(source.findings, record.warnings);
         record.source = source_record(source, input.unit);
-        SolveRecord solve;
-        Eigen::VectorXcd map;
-        if (disk_) {
-            Chart chart = round_disk_chart(source);
-            solve.factorizations = chart.factorizations;
-            append(record.warnings, chart.warnings);
-            FoldFreeDisk disk = fold_free_disk(source, chart.vertices);
-            solve.factorizations += disk.factorizations;
-            if (!disk.fold_free)
-                throw Error(
-                    Cause::not_solved,
-                    "the map to the disk has folds that do not open: faces differ so much in size that rounding "
-                    "decides about them",
-                    "remesh the surface, with edges of like length side by side");
-            if (disk.changed) record.warnings.push_back({WarningKind::mended, what_was_mended(disk)});
-            map = std::move(disk.map);
-        } else {
-            Flattening flat = flatten(source.mesh);
-            map = input.unit * flat.positions;  // edges of the boundary keep their lengths
-            solve.iterations = flat.iterations;
-            solve.factorizations = flat.factorizations;
-            if (!flat.flipped.empty())
-                record.warnings.push_back({WarningKind::flipped_faces,
-                                           counted(flat.flipped.size(), "face comes", "faces come") +
-                                               " out flipped, as edges were flipped on the way; the first is face " +
-                                               std::to_string(flat.flipped[0]),
-                                           {Things::faces, flat.flipped}});
+        std::optional<CutOpen> cut;
+        if (source.topology.components == 1 && source.topology.boundary_loops.empty()) {
+            output_.check_seams();
+            output_.check_layout();
+            cut = cut_open(source);
+            record.warnings.push_back({WarningKind::mended, "the surface is closed: it was cut open along " +
+                                                                counted(cut->seam_edges, "edge", "edges")});
         }
+        const Surface disk = cut ? Surface(cut->disk) : source;
+        SolveRecord solve;
+        const Eigen::VectorXcd map = disk_ ? to_disk(disk, solve) : input.unit * to_plane(disk, solve);
         solve.termination = to_string(Termination::converged);
         solve.seconds_total = seconds() - start;
         record.solve = solve;
-        const Distortion d = distortion(source.operators, disk_ ? map : Eigen::VectorXcd(map / input.unit));
+        const Distortion d = distortion(disk.operators, disk_ ? map : Eigen::VectorXcd(map / input.unit));
         record.map = map_record(d);
-        output_.write(source.mesh, map, d, input.attributes, input.unit);
-        write_page(common_, source.mesh, {{"conformal", positions_of(map), d.face_abs_mu}}, {}, record, source_);
+        if (cut) {
+            output_.write_layout(source.mesh, {positions_of(map), disk.mesh.faces.vertices()}, d, input.attributes,
+                                 input.unit);
+        } else {
+            output_.write(source.mesh, map, d, input.attributes, input.unit);
+        }
+        write_page(common_, disk.mesh, {{"conformal", positions_of(map), d.face_abs_mu}}, {}, record, source_);
         finish(record, common_, "conformal", {output_.path(), common_.json, common_.report});
         return 0;
     }
@@ -79,6 +75,40 @@ class Flatten final : public Command {
     std::string hint(const Error& error) const override { return options_.hint(error, source_); }
 
   private:
+    Eigen::VectorXcd to_disk(const Surface& source, SolveRecord& solve) {
+        Chart chart = round_disk_chart(source);
+        append(record_.warnings, chart.warnings);
+        FoldFreeDisk disk = fold_free_disk(source, chart.vertices);
+        solve.factorizations = chart.factorizations + disk.factorizations;
+        if (!disk.fold_free) refuse("the map to the disk");
+        if (disk.changed) record_.warnings.push_back({WarningKind::mended, what_was_mended(disk)});
+        return std::move(disk.map);
+    }
+
+    /// In the unit of the source: with its boundary kept, edges there keep their lengths.
+    Eigen::VectorXcd to_plane(const Surface& source, SolveRecord& solve) {
+        FoldFreeFlattening flat = fold_free_flattening(source);
+        solve.iterations = flat.flattening.iterations;
+        solve.factorizations = flat.factorizations;
+        if (!flat.fold_free) refuse("the flattening");
+        if (!flat.unfolded.empty())
+            record_.warnings.push_back(
+                {WarningKind::mended,
+                 counted(flat.unfolded.size(), "face came", "faces came") +
+                     " out flipped, as edges were flipped on the way; the first is face " +
+                     std::to_string(flat.unfolded[0]) + ". They were unfolded" +
+                     (flat.kept_boundary ? ""
+                                         : ", for which the boundary had to move: its edges do not keep their lengths"),
+                 {Things::faces, flat.unfolded}});
+        return std::move(flat.flattening.positions);
+    }
+
+    [[noreturn]] static void refuse(const std::string& what) {
+        throw Error(Cause::not_solved,
+                    what + " has folds that do not open: faces differ so much in size that rounding decides about them",
+                    "remesh the surface, with edges of like length side by side");
+    }
+
     static std::string what_was_mended(const FoldFreeDisk& disk) {
         const std::string boundary =
             !disk.kept_boundary ? "its boundary does not go round once, so that arc length decides about its places; "

@@ -96,7 +96,7 @@ void OutputOptions::check_seams() const {
 void OutputOptions::check_layout() const {
     if (as_positions_)
         throw Error(Cause::bad_option,
-                    "--as-positions: a surface with a handle is cut open, and a vertex on the cut has "
+                    "--as-positions: a closed surface is cut open, and a vertex on the cut has "
                     "several places in the plane",
                     "leave it out: OUT then has them as vt");
     check_seams();

@@ -50,6 +50,7 @@ Solved solve(const Surface& surface, const Constraints& constraints, const std::
             result.end = found.termination == Termination::converged         ? "converged"
                          : found.termination == Termination::not_teichmuller ? "not Teichmüller"
                          : found.termination == Termination::below_bound     ? "below the proved bound"
+                         : found.termination == Termination::unconfirmed     ? "not confirmed"
                                                                              : "iteration limit";
         } else if (method == "harmonic") {
             result.map = harmonic_map(surface, boundary);  // lines too, unlike the baseline

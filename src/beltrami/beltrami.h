@@ -32,6 +32,7 @@
 #include <beltrami/flow/beltrami_flow.h>
 #include <beltrami/flow/ring_module.h>
 #include <beltrami/flow/surface_flow.h>
+#include <beltrami/forms/cut_open.h>
 #include <beltrami/forms/flat_torus.h>
 #include <beltrami/forms/harmonic_basis.h>
 #include <beltrami/forms/homology.h>
@@ -96,5 +97,6 @@
 #include <beltrami/teichmuller/torus_map.h>
 #include <beltrami/unfold/fold_free.h>
 #include <beltrami/uniformize/flatten.h>
+#include <beltrami/uniformize/fold_free_flattening.h>
 #include <beltrami/uniformize/sphere_map.h>
 #include <beltrami/version.h>

@@ -114,6 +114,14 @@ class CrowdedScans(Command):
         self.assertLess(record["map"]["mu"]["mean"], 0.23)
         self.assertEqual(self.onto("camel_b.obj", domain({"circle": [0, 0, 1]}, []))["map"]["flipped"], 0)
 
+    def test_values_that_crowd_in_legs(self):
+        record = self.record("map", MESHES / "camel_b.obj", "--boundary", "disk:0.5", "-o", self.path("o.obj"))
+        self.assertEqual(record["map"]["flipped"], 0)
+        self.assertGreater(record["map"]["K_lower_proved"], 6.22)
+        self.assertGreaterEqual(record["map"]["K"], record["map"]["K_lower_proved"])
+        self.assertLess(record["map"]["mu"]["std"], 0.04)
+        self.assertNotEqual(record["solve"]["termination"], "converged")  # below what is proved
+
     def test_four_marks(self):
         loop = boundary_of(read_faces(MESHES / "camel_b.obj")[2])
         corners = [(0, 0), (2, 0), (2, 1), (0, 1)]

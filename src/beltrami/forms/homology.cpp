@@ -3,119 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <functional>
-#include <limits>
-#include <numeric>
-#include <queue>
 #include <string>
-#include <tuple>
 #include <utility>
 
-#include <beltrami/base/disjoint_sets.h>
 #include <beltrami/base/error.h>
+#include <beltrami/forms/tree_cotree.h>
 
 namespace beltrami {
 
 namespace {
 
-/// Lengths of the edges in the metric of the surface; where two faces differ, that of the one that names it last.
-std::vector<double> edge_lengths(const Surface& surface) {
-    const Positions corners = surface.metric ? *surface.metric : corner_positions(surface.mesh);
-    const FaceList& faces = surface.mesh.faces;
-    std::vector<double> lengths(surface.topology.edges.size());
-    for (int f = 0; f < faces.size(); ++f)
-        for (int i = 0; i < faces.degree(f); ++i) {
-            const int c = faces.first_corner(f) + i, next = faces.first_corner(f) + (i + 1) % faces.degree(f);
-            lengths[surface.topology.corner_edges[c]] = (corners.row(next) - corners.row(c)).norm();
-        }
-    return lengths;
-}
-
-/// Shortest paths along edges from one vertex.
-struct Tree {
-    std::vector<int> parents, edges;  // #V, of the way to the root; -1
-    std::vector<double> distances;    // #V
-    int root;
-
-    Tree(const Topology& topology, const std::vector<double>& lengths, int vertex_count, int from)
-        : parents(static_cast<std::size_t>(vertex_count), -1),
-          edges(parents.size(), -1),
-          distances(parents.size(), std::numeric_limits<double>::infinity()),
-          root(from) {
-        std::vector<std::vector<int>> around(parents.size());
-        for (int e = 0; e < topology.edge_count(); ++e)
-            for (const int v : topology.edges[e]) around[v].push_back(e);
-        using Entry = std::pair<double, int>;
-        std::priority_queue<Entry, std::vector<Entry>, std::greater<>> waiting;
-        distances[root] = 0;
-        waiting.push({0, root});
-        while (!waiting.empty()) {
-            const auto [distance, v] = waiting.top();
-            waiting.pop();
-            if (distance > distances[v]) continue;
-            for (const int e : around[v]) {
-                const int w = topology.edges[e][0] == v ? topology.edges[e][1] : topology.edges[e][0];
-                if (distance + lengths[e] >= distances[w]) continue;
-                distances[w] = distance + lengths[e];
-                parents[w] = v;
-                edges[w] = e;
-                waiting.push({distances[w], w});
-            }
-        }
-    }
-
-    /// From the root to a vertex.
-    std::vector<int> path(int v) const {
-        std::vector<int> result;
-        for (; v >= 0; v = parents[v]) result.push_back(v);
-        std::reverse(result.begin(), result.end());
-        return result;
-    }
-};
-
-/// What an edge is to the two trees.
-enum class Role : unsigned char { tree, cotree, loop };
-
-struct Roles {
-    std::vector<Role> of_edges;
-    std::vector<int> loops;  // edges in neither tree, the shortest loops first
-};
-
-/// The spanning tree of the faces, and one for what lies beyond the boundary, across edges that are not in the tree;
-/// the edges of long loops first.
-Roles roles(const Surface& surface, const Tree& tree, const std::vector<double>& lengths) {
-    const Topology& t = surface.topology;
-    Roles result;
-    result.of_edges.assign(t.edges.size(), Role::loop);
-    for (const int e : tree.edges)
-        if (e >= 0) result.of_edges[e] = Role::tree;
-    std::vector<double> of_loop(t.edges.size());
-    std::vector<int> order;
-    for (int e = 0; e < t.edge_count(); ++e) {
-        if (result.of_edges[e] == Role::tree) continue;
-        of_loop[e] = tree.distances[t.edges[e][0]] + lengths[e] + tree.distances[t.edges[e][1]];
-        order.push_back(e);
-    }
-    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return of_loop[a] > of_loop[b]; });
-    const int beyond = surface.mesh.face_count();
-    DisjointSets joined(beyond + 1);
-    for (const int e : order) {
-        const int a = t.edge_faces[e][0] < 0 ? beyond : t.edge_faces[e][0];
-        const int b = t.edge_faces[e][1] < 0 ? beyond : t.edge_faces[e][1];
-        if (joined.find(a) == joined.find(b)) {
-            result.loops.push_back(e);
-        } else {
-            joined.join(a, b);
-            result.of_edges[e] = Role::cotree;
-        }
-    }
-    std::reverse(result.loops.begin(), result.loops.end());
-    return result;
-}
-
 /// The closed forms that are 0 on the tree and have 1 on one of the loops' edges: every face gives the value of the
 /// edge that leads on to the root of the tree of faces, from the leaves on.
-Eigen::MatrixXi cochains_of(const Surface& surface, const Roles& roles) {
+Eigen::MatrixXi cochains_of(const Surface& surface, const EdgeRoles& roles) {
     const Topology& t = surface.topology;
     const FaceList& faces = surface.mesh.faces;
     Eigen::MatrixXi values = Eigen::MatrixXi::Zero(t.edge_count(), static_cast<Eigen::Index>(roles.loops.size()));
@@ -130,14 +30,14 @@ Eigen::MatrixXi cochains_of(const Surface& surface, const Roles& roles) {
         order.push_back(face);
     };
     for (int e = 0; e < t.edge_count(); ++e)
-        if (roles.of_edges[e] == Role::cotree && std::min(t.edge_faces[e][0], t.edge_faces[e][1]) < 0)
+        if (roles.of_edges[e] == EdgeRole::cotree && std::min(t.edge_faces[e][0], t.edge_faces[e][1]) < 0)
             reach(std::max(t.edge_faces[e][0], t.edge_faces[e][1]), e);
     if (order.empty()) reach(0, -1);
     for (std::size_t next = 0; next < order.size(); ++next) {
         const int f = order[next];
         for (int c = faces.first_corner(f); c < faces.first_corner(f) + faces.degree(f); ++c) {
             const int e = t.corner_edges[c];
-            if (roles.of_edges[e] == Role::cotree)
+            if (roles.of_edges[e] == EdgeRole::cotree)
                 reach(t.edge_faces[e][0] == f ? t.edge_faces[e][1] : t.edge_faces[e][0], e);
         }
     }
@@ -187,7 +87,7 @@ std::vector<int> turns(const Surface& surface) {
 
 /// Once around the tree, the ends of the loops' edges are met in the order in which the loops meet at one point when
 /// the tree has shrunk to it: two that alternate cross there.
-Eigen::MatrixXi intersections_of(const Surface& surface, const Tree& tree, const Roles& roles) {
+Eigen::MatrixXi intersections_of(const Surface& surface, const PathTree& tree, const EdgeRoles& roles) {
     const Topology& t = surface.topology;
     const auto count = static_cast<int>(roles.loops.size());
     std::vector<int> loop_of_edge(t.edges.size(), -1);
@@ -195,13 +95,13 @@ Eigen::MatrixXi intersections_of(const Surface& surface, const Tree& tree, const
     const std::vector<int> next = turns(surface);
     int start = -1;
     for (std::size_t e = 0; e < t.edges.size() && start < 0; ++e)
-        if (roles.of_edges[e] == Role::tree && (t.edges[e][0] == tree.root || t.edges[e][1] == tree.root))
+        if (roles.of_edges[e] == EdgeRole::tree && (t.edges[e][0] == tree.root || t.edges[e][1] == tree.root))
             start = static_cast<int>(2 * e) + (t.edges[e][0] == tree.root ? 0 : 1);
     std::vector<std::array<int, 2>> places(static_cast<std::size_t>(count));  // of the start and the end of each loop
     int place = 0;
     for (int d = start;;) {
         const int e = d / 2;
-        if (roles.of_edges[e] == Role::tree) {
+        if (roles.of_edges[e] == EdgeRole::tree) {
             d = next[d ^ 1];
         } else {
             if (const int l = loop_of_edge[e]; l >= 0) places[l][d % 2] = place++;
@@ -222,7 +122,7 @@ Eigen::MatrixXi intersections_of(const Surface& surface, const Tree& tree, const
 }
 
 /// From the root along an edge and back, without what is gone there and back.
-std::vector<int> loop_of(const Topology& topology, const Tree& tree, int edge) {
+std::vector<int> loop_of(const Topology& topology, const PathTree& tree, int edge) {
     const std::vector<int> there = tree.path(topology.edges[edge][0]), back = tree.path(topology.edges[edge][1]);
     std::size_t common = 0;
     while (common + 1 < std::min(there.size(), back.size()) && there[common + 1] == back[common + 1]) ++common;
@@ -246,8 +146,8 @@ HomologyBasis homology_basis(const Surface& surface) {
         throw Error(Cause::bad_mesh, "the surface has " + std::to_string(t.components) + " components",
                     "take one component at a time");
     const std::vector<double> lengths = edge_lengths(surface);
-    const Tree tree(t, lengths, surface.mesh.vertex_count(), t.edges[0][0]);
-    const Roles part = roles(surface, tree, lengths);
+    const PathTree tree(t, lengths, surface.mesh.vertex_count(), t.edges[0][0]);
+    const EdgeRoles part = edge_roles(surface, tree, lengths);
     HomologyBasis basis;
     for (const int e : part.loops) {
         basis.loops.push_back(loop_of(t, tree, e));

@@ -12,6 +12,8 @@ const char* to_string(Termination termination) {
             return "not_teichmuller";
         case Termination::below_bound:
             return "below_bound";
+        case Termination::unconfirmed:
+            return "unconfirmed";
     }
     return "unknown";
 }

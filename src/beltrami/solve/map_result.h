@@ -19,6 +19,8 @@ enum class Termination {
     /// Settled, but what is proved about K* is larger than the K found: the differentials at hand cannot show the
     /// extremal φ. K is then the proved bound.
     below_bound,
+    /// Settled, but nothing confirms the map: faces are flipped, or K is far above every lower bound that is known.
+    unconfirmed,
 };
 const char* to_string(Termination);
 

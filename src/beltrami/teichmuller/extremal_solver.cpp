@@ -2,7 +2,7 @@
 
 #include <beltrami/base/error.h>
 #include <beltrami/teichmuller/mixed_conditions.h>
-#include <beltrami/teichmuller/mixed_problem.h>
+#include <beltrami/teichmuller/mixed_in_chart.h>
 #include <beltrami/teichmuller/onto_problem.h>
 #include <beltrami/teichmuller/piecewise_solver.h>
 #include <beltrami/teichmuller/prescribed_solver.h>
@@ -28,15 +28,10 @@ std::unique_ptr<ProblemSolver> prescribed_solver(const Surface& source, const Co
 std::unique_ptr<ProblemSolver> solver_of(const Surface& source, const Constraints& constraints,
                                          const ExtremalOptions& options) {
     if (constraints.all_prescribed()) return prescribed_solver(source, constraints, options);
-    std::unique_ptr<SlidingProblem> problem;
-    if (constraints.all_slides()) {
-        problem = std::make_unique<OntoProblem>(source, constraints, options);
-    } else {
-        problem =
-            std::make_unique<MixedProblem>(source, mixed_conditions(source, constraints, options.target_edge_length),
-                                           options, constraints.correspondence.marks.size());
-    }
-    return std::make_unique<SlidingSolver>(std::move(problem), options);
+    if (constraints.all_slides())
+        return std::make_unique<SlidingSolver>(std::make_unique<OntoProblem>(source, constraints, options), options);
+    return mixed_solver(source, mixed_conditions(source, constraints, options.target_edge_length), options,
+                        constraints.correspondence.marks.size());
 }
 
 }  // namespace

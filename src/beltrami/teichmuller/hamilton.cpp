@@ -18,6 +18,9 @@ constexpr double kLargeChange = 0.1;
 /// Changes of φ below this that do not become smaller for some iterations, while k stays, come from zeros of φ.
 constexpr double kStalledBelow = 3e-4, kStalledChangeOfK = 1e-5;
 constexpr int kStalledFor = 4;
+/// k stays to this for so many steps, in which the change of φ has not halved: φ is settled as far as the data tell.
+constexpr double kStillChangeOfK = 5e-6;
+constexpr int kStillFor = 12;
 /// φ changes by more than this while k changes by less than that, within so narrow a bracket of K.
 constexpr double kQuietAbove = 1e-3, kQuietChangeOfK = 2e-4, kQuietGap = 0.02;
 /// Steps taken in a preliminary space.
@@ -50,7 +53,7 @@ class Settling {
     /// In a larger space all begins anew.
     void restart() {
         least_change_ = 1;
-        since_least_ = quiet_ = 0;
+        since_least_ = quiet_ = still_ = 0;
     }
     /// Whether all has settled with a step, by which φ and k have changed.
     bool after(const CoefficientStep::Result& step, double change, double k_change, bool preliminary) {
@@ -64,7 +67,9 @@ class Settling {
         }
         // Where the data hardly tell two φ apart, φ wanders while k stays and the bound is as near as it will come.
         quiet_ = change > kQuietAbove && k_change < kQuietChangeOfK ? quiet_ + 1 : 0;
+        still_ = k_change < kStillChangeOfK && change < kLargeChange ? still_ + 1 : 0;
         if (preliminary) return false;
+        if (std::min(still_, since_least_) >= kStillFor) return true;
         const double gap = bracket(step);
         if (quiet_ >= options_.quiet_steps && gap < kQuietGap) return true;
         if (gap > options_.tight && change < kLargeChange &&
@@ -80,7 +85,7 @@ class Settling {
   private:
     const HamiltonIteration::Options& options_;
     double least_change_ = 1;
-    int since_least_ = 0, quiet_ = 0;
+    int since_least_ = 0, quiet_ = 0, still_ = 0;
 };
 
 /// How φ and k of the next f-step follow from a c-step: they are its own, or led further by acceleration.

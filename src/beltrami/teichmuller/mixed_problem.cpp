@@ -72,6 +72,26 @@ bool all_slides(const MixedBoundary& boundary) {
     return std::none_of(boundary.held.begin(), boundary.held.end(), has_arc);
 }
 
+/// Powers of J that the edges at the ends of prescribed arcs of the outer circle resolve.
+int resolved_powers(const Surface& source, const Chart& chart, const MixedDomain& domain) {
+    const auto& loop = source.topology.boundary_loops[chart.outer_loop];
+    const auto at = [&](std::size_t i) { return chart.vertices[loop[i % loop.size()]]; };
+    double result = std::numeric_limits<double>::infinity();
+    for (const MixedDomain::Part& part : domain.loops[0].parts)
+        for (const double end : {part.from, part.to}) {
+            if (part.slides) continue;
+            std::size_t nearest = 0;
+            for (std::size_t i = 0; i < loop.size(); ++i)
+                if (std::abs(at(i) - std::polar(1.0, end)) < std::abs(at(nearest) - std::polar(1.0, end))) nearest = i;
+            const double edge = std::max(std::abs(at(nearest + 1) - at(nearest)),
+                                         std::abs(at(nearest + loop.size() - 1) - at(nearest)));
+            result = std::min(result, 0.5 * kTurnAtEnd * std::sqrt((part.to - part.from) / edge));
+        }
+    return static_cast<int>(std::min(result, 1e6));
+}
+
+}  // namespace
+
 PreparedProblem prepare_mixed(const Surface& source, const MixedConditions& conditions,
                               const ExtremalOptions& options) {
     options.validate();
@@ -98,26 +118,6 @@ PreparedProblem prepare_mixed(const Surface& source, const MixedConditions& cond
     }
     return prepared(split_prescribed(source, all));
 }
-
-/// Powers of J that the edges at the ends of prescribed arcs of the outer circle resolve.
-int resolved_powers(const Surface& source, const Chart& chart, const MixedDomain& domain) {
-    const auto& loop = source.topology.boundary_loops[chart.outer_loop];
-    const auto at = [&](std::size_t i) { return chart.vertices[loop[i % loop.size()]]; };
-    double result = std::numeric_limits<double>::infinity();
-    for (const MixedDomain::Part& part : domain.loops[0].parts)
-        for (const double end : {part.from, part.to}) {
-            if (part.slides) continue;
-            std::size_t nearest = 0;
-            for (std::size_t i = 0; i < loop.size(); ++i)
-                if (std::abs(at(i) - std::polar(1.0, end)) < std::abs(at(nearest) - std::polar(1.0, end))) nearest = i;
-            const double edge = std::max(std::abs(at(nearest + 1) - at(nearest)),
-                                         std::abs(at(nearest + loop.size() - 1) - at(nearest)));
-            result = std::min(result, 0.5 * kTurnAtEnd * std::sqrt((part.to - part.from) / edge));
-        }
-    return static_cast<int>(std::min(result, 1e6));
-}
-
-}  // namespace
 
 AdmissibleDifferentials mixed_differentials(const Surface& source, const CircleDomainChart& domain,
                                             const MixedBoundary& boundary, const Eigen::VectorXcd& start) {

@@ -11,6 +11,10 @@ namespace beltrami {
 AdmissibleDifferentials mixed_differentials(const Surface& source, const CircleDomainChart& domain,
                                             const MixedBoundary& boundary, const Eigen::VectorXcd& start);
 
+/// Examines a mixed problem and splits the edges that it would nail down.
+/// @throw Error bad_mesh, bad_boundary, bad_option
+PreparedProblem prepare_mixed(const Surface& source, const MixedConditions& conditions, const ExtremalOptions& options);
+
 /// Something is prescribed and something slides.
 class MixedProblem final : public SlidingProblem {
   public:

@@ -113,7 +113,8 @@ void PiecewiseSolver::merge(std::vector<ExtremalMap>& parts, ExtremalMap& whole)
         whole.folds_removed = whole.folds_removed || part.folds_removed;
         whole.pieces.push_back({pieces_[p].faces, part.k, part.K, part.K_lower, part.K_lower_proved, part.termination});
         if (part.termination == Termination::iteration_limit ||
-            (part.termination == Termination::below_bound && whole.termination == Termination::converged))
+            ((part.termination == Termination::below_bound || part.termination == Termination::unconfirmed) &&
+             whole.termination == Termination::converged))
             whole.termination = part.termination;
         if (part.K > parts[decisive].K) decisive = p;
         // Warnings about corners name vertices of the whole.

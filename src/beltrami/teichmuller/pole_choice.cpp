@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include <beltrami/certificate/chart_quadrilateral.h>
 #include <beltrami/teichmuller/coarse_start.h>
+#include <beltrami/teichmuller/crowding.h>
 #include <beltrami/teichmuller/elongation.h>
 
 namespace beltrami {
@@ -19,8 +19,6 @@ constexpr double kClearCorner = 3, kSharpImage = 0.35;
 /// face of 34 144 triangles .015, where the surface's metric is more exact; scans whose maps it keeps from settling, or
 /// whose bracket the plane narrows, .04 to .3.
 constexpr double kNoise = 0.03;
-/// Values that force so much in a quadrilateral crowd in the chart (camel_b: 5; other scans 1.1 to 1.8).
-constexpr double kCrowded = 3;
 /// Where the bracket of the coarse problem, times its triangles, is below this, the corners are not seen. (A bump has
 /// .7; four points of a disk have 4, and leaving their poles out would cost .35 % of K.)
 constexpr double kTight = 2;
@@ -56,15 +54,22 @@ std::vector<BoundaryCorner> PoleChoice::clear_corners() const {
 }
 
 /// Whether the plane of the problem's chart is to be the metric of the iteration: not where the image has corners, at
-/// which φ needs its poles from the start, nor where the values crowd, so that polynomials show little of φ.
+/// which φ needs its poles from the start.
 bool PoleChoice::wants_chart_metric() const {
     if (image_corners() > 0 || !problem_.chart_metric_possible()) return false;
     if (options_.slack > 0) return true;
     if (options_.chart_metric) return *options_.chart_metric;
+    return problem_.chart_noise(options_.cluster_count) > kNoise;
+}
+
+/// φ of products of one-forms, without a chart.
+void PoleChoice::take_form_products() {
     const Surface& source = problem_.source();
-    const Eigen::VectorXcd images = problem_.harmonic()(source.topology.boundary_loops[0]);
-    return chart_quadrilateral_estimate(source, problem_.chart(), {images.begin(), images.end()}) < kCrowded &&
-           problem_.chart_noise(options_.cluster_count) > kNoise;
+    const Eigen::VectorXcd& harmonic = problem_.harmonic();
+    products_ = form_product_space(source, problem_.solver(), harmonic);
+    problem_.set_chart(uncrowded(source, problem_.chart(), harmonic));
+    problem_.set_singularities({}, std::max(options_.cluster_count, kCrowdedClusters));
+    problem_.coefficient_step().set_clip(kCrowdedClip);
 }
 
 HamiltonState PoleChoice::choose(ProblemChart charts, bool plain) {
@@ -75,6 +80,13 @@ HamiltonState PoleChoice::choose(ProblemChart charts, bool plain) {
     elongated_ = plain && loops.size() == 1 && boundary_.lines.empty() &&
                  boundary_.vertices.size() == loops[0].size() && image_corners() > 2 &&
                  is_elongated(source.operators, problem_.harmonic());
+    if (plain && !elongated_ && problem_.is_disk_in_space() &&
+        values_crowd(source, charts.chart, problem_.harmonic())) {
+        instead_.reset();
+        problem_.set_chart(std::move(charts.chart));
+        take_form_products();
+        return {};
+    }
     Singularities singularities = take_chart(std::move(charts.chart), problem_.harmonic());
     // Corners that only a fine mesh would resolve need no poles; that they do not, the coarse problem shows. In a
     // chart far from conformal poles at corners would see its errors as dilatation.

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include <beltrami/differentials/tabulated_space.h>
 #include <beltrami/teichmuller/extremal_options.h>
 #include <beltrami/teichmuller/problem.h>
 #include <beltrami/teichmuller/problem_chart.h>
@@ -33,6 +34,8 @@ class PoleChoice {
     bool needed(double bracket) const { return withheld() && bracket > widest_bracket_; }
     bool smooth() const { return smooth_; }        ///< φ has no singularities
     bool elongated() const { return elongated_; }  ///< see elongation.h
+    /// The space of φ where the boundary values crowd (crowding.h); null elsewhere.
+    const std::optional<TabulatedSpace>& products() const { return products_; }
 
   private:
     /// Width of the bracket, as part of K, from which on poles are needed in any case.
@@ -41,6 +44,7 @@ class PoleChoice {
     std::ptrdiff_t image_corners() const;
     std::vector<BoundaryCorner> clear_corners() const;
     bool wants_chart_metric() const;
+    void take_form_products();
     Singularities take_chart(Chart chart, const Eigen::VectorXcd& at);
     Singularities take_instead(const Eigen::VectorXcd& at);
 
@@ -53,6 +57,7 @@ class PoleChoice {
     std::optional<Singularities> withheld_;
     double widest_bracket_ = kPolesNeeded;  // with which φ may do without them
     bool smooth_ = true, elongated_ = false;
+    std::optional<TabulatedSpace> products_;
 };
 
 }  // namespace beltrami

@@ -104,7 +104,7 @@ void PrescribedSolver::choose_start() {
         map = follow(source_, Continuation(source_, places, wanted_.outer_loop, boundary_, *wanted_.waypoints)).map;
     } else if (!wanted_.turns.empty()) {
         map = start_in_class(source_, problem_.chart().vertices, wanted_.outer_loop, boundary_, wanted_.turns).map;
-    } else if (poles_.smooth() && !poles_.elongated() && !state_.space) {
+    } else if (poles_.smooth() && !poles_.elongated() && !poles_.products() && !state_.space) {
         const bool in_plane = problem_.chart_metric() != nullptr;
         state_ = coarse_start(source_, boundary_, problem_.chart(), problem_.phase(), problem_.largest_degree(),
                               options_, in_plane ? kCoarseStartPaysInPlane : kCoarseStartPays, in_plane)
@@ -241,6 +241,7 @@ HamiltonIteration::Options PrescribedSolver::adapted(HamiltonIteration::Options 
 }
 
 std::unique_ptr<DifferentialSpace> PrescribedSolver::first_space() const {
+    if (poles_.products()) return std::make_unique<TabulatedSpace>(*poles_.products());
     if (poles_.elongated()) return harmonic_square_space(source_, problem_.chart(), problem_.harmonic());
     return problem_.starting_space(problem_.largest_degree());
 }
@@ -315,6 +316,7 @@ ExtremalMap PrescribedSolver::record() const {
     record_attained(result);
     record_shortcomings(result);
     record_proofs(source_, boundary_, options_, result);
+    withdraw_unconfirmed(result);
     return result;
 }
 
@@ -341,7 +343,7 @@ void PrescribedSolver::record_bounds(ExtremalMap& result) const {
     }
     const SolutionBounds bounds = best_bounds();
     result.bounds = bounds.bounds;
-    if (problem_.chart_metric()) record_quadrilaterals(result);
+    if (problem_.chart_metric() || poles_.products()) record_quadrilaterals(result);
     result.K = std::min(bounds.K, result.distortion.K_max());
     result.k = k_of(result.K);
     result.K_lower = bounds.K_lower;

@@ -92,6 +92,10 @@ class ChartDomain {
 
 }  // namespace
 
+bool can_be_metric(const Surface& source, const Chart& chart) {
+    return is_round(source, chart) && unseen_part(source, chart) < kMostUnseen;
+}
+
 ExtremalProblem::ExtremalProblem(const Surface& source, const BoundaryCondition& boundary, int expected_factorizations)
     : source_(source),
       boundary_(boundary),
@@ -122,7 +126,7 @@ bool ExtremalProblem::is_disk_in_space() const {
 }
 
 bool ExtremalProblem::chart_metric_possible() const {
-    return is_disk_in_space() && is_round(source_, chart_) && unseen_part(source_, chart_) < kMostUnseen;
+    return is_disk_in_space() && can_be_metric(source_, chart_);
 }
 
 double ExtremalProblem::chart_noise(int cluster_count) const {

@@ -119,6 +119,10 @@ class ExtremalProblem {
     std::optional<CoefficientStep> coefficient_step_;
 };
 
+/// Whether the plane of a chart can be the metric of the iteration: of a disk whose round chart turns over next to
+/// nothing of itself.
+bool can_be_metric(const Surface& source, const Chart& chart);
+
 /// What the chart's holes, the constraints inside and the corners of domain and boundary values allow φ to have.
 /// @param map of which the derivative says where vertices may move that are held to lines one by one; those of curves
 ///            move along these

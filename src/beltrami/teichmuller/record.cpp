@@ -15,6 +15,8 @@ namespace {
 constexpr double kRough = 0.6, kLeastRoughK = 1e-3;
 /// Faces with a larger |μ| are crushed where k is smaller than that.
 constexpr double kCrushed = 0.9, kMildK = 0.67;
+/// A map whose K is above every lower bound by more than this part is not confirmed.
+constexpr double kUnconfirmed = 0.1;
 /// Residuals below are rounding.
 constexpr double kLeastResidual = 1e-16;
 
@@ -77,6 +79,19 @@ void warn_of_crushed_faces(ExtremalMap& result) {
                                    ": the map leaves next to no room there, at notches and slots of the outline, and "
                                    "linear faces cannot follow it; a finer mesh there can",
                                {Things::faces, crushed}});
+}
+
+void withdraw_unconfirmed(ExtremalMap& result) {
+    if (result.termination != Termination::converged) return;
+    const bool wide = result.K > (1 + kUnconfirmed) * result.K_lower;
+    if (wide || !result.distortion.flipped.empty()) result.termination = Termination::unconfirmed;
+    if (!wide) return;
+    const std::string bound = result.K_lower > 1 ? "the largest lower bound is " + std::to_string(result.K_lower)
+                                                 : std::string("there is no lower bound");
+    result.warnings.push_back(
+        {WarningKind::rough, "K has settled at " + std::to_string(result.K) + ", but nothing confirms it: " + bound +
+                                 ". Where boundary values crowd, at corners, and where conditions change along the "
+                                 "boundary, the mesh may be too coarse for the differential; a finer mesh tells"});
 }
 
 void record_shortcomings(ExtremalMap& result) {

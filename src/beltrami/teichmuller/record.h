@@ -23,6 +23,10 @@ void record_space(const DifferentialSpace& space, std::optional<int> expected_di
 /// The warnings about a map that is not one-to-one, has not settled or is far from constant dilatation.
 void record_shortcomings(ExtremalMap& result);
 
+/// Takes back that a map has converged where nothing confirms it: faces are flipped, or K is more than a tenth above
+/// every lower bound. The last word on a result, after all bounds.
+void withdraw_unconfirmed(ExtremalMap& result);
+
 /// The warning about single faces that are stretched far more than the extremal map is.
 void warn_of_crushed_faces(ExtremalMap& result);
 

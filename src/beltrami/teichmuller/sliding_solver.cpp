@@ -92,6 +92,7 @@ ExtremalMap SlidingSolver::solve() {
     warn_of_crushed_faces(result);
     result.split = problem_->split();
     problem_->record(result);
+    withdraw_unconfirmed(result);
     return result;
 }
 

@@ -122,6 +122,28 @@ TEST(ChartMetric, TheChartItselfHasNoDilatation) {
     EXPECT_FALSE(surface.in_chart);
 }
 
+/// Half of the rim slides: fewer conditions than where all of it is prescribed, so no larger K.
+TEST(ChartMetric, MixedConditionsAreSolvedThere) {
+    const Surface source(rough_bump());
+    const std::vector<int>& loop = source.topology.boundary_loops[0];
+    const BoundaryCondition boundary = boundary_to_disk(source, 0.5);
+    Constraints constraints(boundary);
+    constraints.slide(loop[3], loop[loop.size() / 2], TargetCurve::circle(0, 1));
+    const ExtremalMap result = extremal_map(source, constraints), prescribed = extremal_map(source, boundary);
+    ASSERT_TRUE(result.in_chart);
+    EXPECT_TRUE(result.one_to_one());
+    EXPECT_EQ(result.termination, Termination::converged);
+    EXPECT_LT(result.K, 1.01 * prescribed.K);
+    EXPECT_LT(result.K, 1.03 * result.K_lower);
+    EXPECT_LT(result.curve_residual, 1e-12);
+    const Distortion measured = distortion(source.operators, result.map);
+    EXPECT_EQ(result.distortion.mean, measured.mean);
+    EXPECT_EQ(result.K_max, measured.K_max());
+    ExtremalOptions on_surface;
+    on_surface.chart_metric = false;
+    EXPECT_FALSE(extremal_map(source, constraints, on_surface).in_chart);
+}
+
 /// Noise decides which metric is taken unless the options do: that of a rough surface, not that of a smooth one.
 TEST(ChartMetric, IsTakenWhereTheSurfaceIsRough) {
     for (const bool rough : {true, false}) {

@@ -1,0 +1,108 @@
+#include <beltrami/teichmuller/crowding.h>
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <beltrami/certificate/chart_quadrilateral.h>
+
+namespace beltrami {
+
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;
+/// Values that force so much in a quadrilateral crowd in the chart (camel_b: 5; other scans 1.1 to 1.8).
+constexpr double kCrowded = 3;
+constexpr int kWaves = 6;
+/// What is left of a product beside those taken before, as part of the first: less is mesh noise.
+constexpr double kDependent = 1e-3;
+/// Samples below which so many functions would fit anything.
+constexpr int kLeastSamples = 10 * kWaves * (2 * kWaves + 1);
+
+/// The way along the image of each boundary vertex, as an angle, and whether there is one.
+std::pair<Eigen::VectorXd, bool> way_along_image(const std::vector<int>& loop, const Eigen::VectorXcd& map) {
+    const auto n = static_cast<Eigen::Index>(loop.size());
+    Eigen::VectorXd at(n);
+    double length = 0;
+    for (Eigen::Index i = 0; i < n; ++i) {
+        at[i] = length;
+        length += std::abs(map[loop[(i + 1) % n]] - map[loop[i]]);
+    }
+    return {at * (kTurn / length), length > 0};
+}
+
+/// Columns scaled to length 1 and made orthonormal, the one with most left beside the others first (Gram and Schmidt
+/// with pivots).
+Eigen::MatrixXcd orthonormal(Eigen::MatrixXcd columns) {
+    for (Eigen::Index j = 0; j < columns.cols(); ++j)
+        if (const double size = columns.col(j).norm(); size > 0) columns.col(j) /= size;
+    Eigen::Index count = 0;
+    for (; count < columns.cols(); ++count) {
+        Eigen::Index most = 0;
+        const double left = columns.rightCols(columns.cols() - count).colwise().norm().maxCoeff(&most);
+        if (!(left > kDependent)) break;
+        columns.col(count).swap(columns.col(count + most));
+        // Once more, against what rounding has left of those before.
+        columns.col(count) -= columns.leftCols(count) * (columns.leftCols(count).adjoint() * columns.col(count)).eval();
+        columns.col(count).normalize();
+        const Eigen::Index rest = columns.cols() - count - 1;
+        if (rest == 0) continue;
+        const Eigen::RowVectorXcd along = columns.col(count).adjoint() * columns.rightCols(rest);
+        columns.rightCols(rest) -= columns.col(count) * along;
+    }
+    columns.conservativeResize(Eigen::NoChange, count);
+    return columns;
+}
+
+}  // namespace
+
+bool values_crowd(const Surface& source, const Chart& chart, const Eigen::VectorXcd& harmonic) {
+    if (source.operators.sample_count() < kLeastSamples) return false;
+    const Eigen::VectorXcd images = harmonic(source.topology.boundary_loops[0]);
+    return chart_quadrilateral_estimate(source, chart, {images.begin(), images.end()}) >= kCrowded;
+}
+
+Chart uncrowded(const Surface& source, Chart chart, const Eigen::VectorXcd& harmonic) {
+    const Operators& operators = source.operators;
+    const Chart frames = chart_of_frames(source);
+    chart.exact = false;
+    chart.analytic = {};
+    chart.derivatives = frames.derivatives;
+    chart.excluded = frames.excluded;
+    chart.excluded_faces = 0;
+    chart.positions.setZero(operators.sample_count());
+    for (int s = 0; s < operators.sample_count(); ++s) {
+        const auto corners = operators.stencil(s);
+        for (const int v : corners) chart.positions[s] += harmonic[v] / static_cast<double>(corners.size());
+    }
+    return chart;
+}
+
+TabulatedSpace form_product_space(const Surface& source, const BeltramiSolver& solver,
+                                  const Eigen::VectorXcd& harmonic) {
+    const Operators& operators = source.operators;
+    const int samples = operators.sample_count(), forms = 2 * kWaves;
+    const std::vector<int>& loop = source.topology.boundary_loops[0];
+    const auto [way, goes_round] = way_along_image(loop, harmonic);
+    Eigen::MatrixXcd form(samples, forms);
+    for (int j = 1; goes_round && j <= kWaves; ++j) {
+        Eigen::VectorXcd wave = Eigen::VectorXcd::Zero(operators.vertex_count);
+        for (std::size_t i = 0; i < loop.size(); ++i)
+            wave[loop[i]] = std::polar(1.0, j * way[static_cast<Eigen::Index>(i)]);
+        wave = solver.solve(wave);
+        for (int s = 0; s < samples; ++s) {
+            const auto [dz, dzbar] = operators.derivatives(s, wave);
+            form(s, 2 * j - 2) = dz;
+            form(s, 2 * j - 1) = std::conj(dzbar);
+        }
+    }
+    const Eigen::ArrayXd root_areas = Eigen::Map<const Eigen::ArrayXd>(operators.weights.data(), samples).sqrt();
+    Eigen::MatrixXcd products(samples, forms * (forms + 1) / 2);
+    for (int i = 0, column = 0; i < forms; ++i)
+        for (int j = i; j < forms; ++j) products.col(column++) = form.col(i).array() * form.col(j).array() * root_areas;
+    products = orthonormal(std::move(products));
+    for (Eigen::Index j = 0; j < products.cols(); ++j) products.col(j).array() /= root_areas;
+    return TabulatedSpace(std::move(products), Coefficients::complex);
+}
+
+}  // namespace beltrami

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <beltrami/differentials/tabulated_space.h>
+#include <beltrami/solve/beltrami_solver.h>
+
+namespace beltrami {
+
+/// Whether the boundary values of a disk crowd in its chart: quadrilaterals of the rim force so much there that
+/// polynomials in the chart, which see next to nothing of legs and horns, show little of φ.
+/// @param harmonic #V the harmonic map with the boundary values
+bool values_crowd(const Surface& source, const Chart& chart, const Eigen::VectorXcd& harmonic);
+
+/// What stands for the chart of such a disk in the c-step: area and frames of the surface itself, and for places those
+/// of the harmonic map, where nothing is crowded. Vertices stay where the chart has them.
+Chart uncrowded(const Surface& source, Chart chart, const Eigen::VectorXcd& harmonic);
+
+/// Where |μ| is held of maps of such disks, and the fewest clusters of samples that resolve φ there.
+inline constexpr double kCrowdedClip = 0.99;
+inline constexpr int kCrowdedClusters = 8'000;
+
+/// Products of the one-forms ∂F_j and conj(∂̄F_j) of the harmonic functions F_j with the boundary values e^{ijt}, where
+/// t is the way along the image of the boundary, j = 1, …, 6: holomorphic as far as piecewise linear functions are
+/// harmonic, and of the size that φ has in every leg, whatever its share of the chart. Orthonormal in L² of the
+/// surface, without those that all but depend on others; known at the samples.
+/// @param solver factorised for the coefficient 0, with the whole boundary fixed
+TabulatedSpace form_product_space(const Surface& source, const BeltramiSolver& solver,
+                                  const Eigen::VectorXcd& harmonic);
+
+}  // namespace beltrami
