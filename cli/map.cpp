@@ -94,7 +94,11 @@ class Map final : public Command {
         metric_.load(input_);
         const double start = seconds();
         const Surface source = metric_.surface_of(std::move(input_.mesh));
-        add_findings(source.findings, record.warnings);
+        std::vector<Finding> findings = source.findings;
+        if (each_component_)  // several are what is asked for
+            std::erase_if(findings,
+                          [](const Finding& finding) { return finding.defect == Defect::several_components; });
+        add_findings(findings, record.warnings);
         record.source = source_record(source, input_.unit);
         if (onto_.prescribes()) return run_onto_surface(source, start, record);
         if (onto_.given() || slide_.given()) return run_sliding(source, start, record);

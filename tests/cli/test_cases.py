@@ -122,6 +122,18 @@ class CrowdedScans(Command):
         self.assertLess(record["map"]["mu"]["std"], 0.04)
         self.assertNotEqual(record["solve"]["termination"], "converged")  # below what is proved
 
+    def test_half_of_the_outline_slides(self):
+        loop = boundary_of(read_faces(MESHES / "camel_b.obj")[2])
+        with open(self.path("arcs.txt"), "w") as out:
+            out.write(f"{loop[0]} {loop[len(loop) // 4]}\n{loop[len(loop) // 2]} {loop[3 * len(loop) // 4]}\n")
+        record = self.record("map", MESHES / "camel_b.obj", "--boundary", "disk", "--slide", self.path("arcs.txt"),
+                             "-o", self.path("o.obj"))
+        self.assertEqual(record["map"]["flipped"], 0)
+        # Nothing is claimed that is not there: with legs that the chart does not see the bracket stays wide.
+        if record["map"]["K"] > 1.1 * record["map"]["K_lower"]:
+            self.assertNotEqual(record["solve"]["termination"], "converged")
+            self.assertTrue(record["warnings"])
+
     def test_four_marks(self):
         loop = boundary_of(read_faces(MESHES / "camel_b.obj")[2])
         corners = [(0, 0), (2, 0), (2, 1), (0, 1)]

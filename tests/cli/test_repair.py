@@ -191,6 +191,7 @@ class Mending(Command):
                 np.testing.assert_allclose(vt[part] - vt[by], own - own[0], atol=1e-12)
                 self.assertEqual(record["components"][component]["map"], alone["map"])
             self.assertEqual(record["components"][1]["first_face"], len(one[1]))
+            self.assertFalse(any("connected components" in warning for warning in record["warnings"]))
             # Side by side, not on top of each other.
             self.assertLess(vt[:n, 0].max(), vt[n:, 0].min())
             self.assertEqual(record["map"]["flipped"], 0)

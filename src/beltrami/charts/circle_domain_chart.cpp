@@ -138,11 +138,6 @@ void unfold(const Surface& source, CircleDomainChart& result) {
     const std::vector<int> folded = unforced(source, result);
     if (folded.empty()) return;
     const std::vector<Freedom> freedom = dirichlet_freedoms(source);
-    FoldFreeOptions options;
-    options.tolerance = 1e-3;
-    options.max_iterations = 200;
-    FoldFreeMap map = fold_free_map(source, freedom, Eigen::VectorXcd::Zero(source.operators.sample_count()),
-                                    result.chart.vertices, options);
     const Eigen::VectorXcd before = result.chart.vertices;
     const auto take = [&](Eigen::VectorXcd z, int factorizations) {
         Chart chart = make_chart(source, std::move(z), false);
@@ -152,16 +147,39 @@ void unfold(const Surface& source, CircleDomainChart& result) {
         result.chart = std::move(chart);
         measure(source, result);
     };
-    take(std::move(map.map), map.factorizations);
-    if (!unforced(source, result).empty()) {
-        LocalUnfolding by_parts = unfold_locally(source, freedom, before);
-        take(std::move(by_parts.map), by_parts.factorizations);
+    const auto as_a_whole = [&] {
+        FoldFreeOptions options;
+        options.tolerance = 1e-3;
+        options.max_iterations = 200;
+        FoldFreeMap map =
+            fold_free_map(source, freedom, Eigen::VectorXcd::Zero(source.operators.sample_count()), before, options);
+        take(std::move(map.map), map.factorizations);
+    };
+    const auto by_parts = [&] {
+        LocalUnfolding map = unfold_locally(source, freedom, before);
+        take(std::move(map.map), map.factorizations);
+    };
+    // A disk's folds are few and small, and the rest of it may stay as it is.
+    if (result.holes.empty()) {
+        by_parts();
+        if (!unforced(source, result).empty()) as_a_whole();
+    } else {
+        as_a_whole();
+        if (!unforced(source, result).empty()) by_parts();
     }
     if (!unforced(source, result).empty() && result.holes.empty()) {
         FoldFreeDisk disk = fold_free_disk(source, before);
         take(std::move(disk.map), disk.factorizations);
     }
-    if (const std::vector<int> faces = unforced(source, result); !faces.empty())
+    const std::vector<int> faces = unforced(source, result);
+    if (!faces.empty() && result.holes.empty()) {  // smaller than rounding, they are no part of the domain
+        result.chart.warnings.push_back(
+            {WarningKind::chart,
+             std::to_string(faces.size()) + " faces stay flipped in the circle domain; they are left out of it",
+             {Things::faces, faces}});
+        return;
+    }
+    if (!faces.empty())
         throw Error(Cause::not_solved,
                     std::to_string(faces.size()) + " faces stay flipped in the circle domain, the first is face " +
                         std::to_string(faces[0]),

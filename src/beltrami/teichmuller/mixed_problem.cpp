@@ -120,7 +120,8 @@ PreparedProblem prepare_mixed(const Surface& source, const MixedConditions& cond
 }
 
 AdmissibleDifferentials mixed_differentials(const Surface& source, const CircleDomainChart& domain,
-                                            const MixedBoundary& boundary, const Eigen::VectorXcd& start) {
+                                            const MixedBoundary& boundary, const Eigen::VectorXcd& start,
+                                            std::optional<int> most) {
     AdmissibleDifferentials result;
     result.chart = domain.chart;
     result.grows = true;
@@ -165,7 +166,7 @@ AdmissibleDifferentials mixed_differentials(const Surface& source, const CircleD
         powers.push_back(std::clamp(static_cast<int>(source.topology.boundary_loops[hole.loop].size()) / kEdgesPerPower,
                                     kLeastPower, kMostPower));
     int largest = PolynomialSpace::largest_degree(source.operators.sample_count()), first = kFirstDegree;
-    if (SlitSpace::describes(mixed)) {
+    if (SlitSpace::describes(mixed) && !most) {
         const auto slits = static_cast<int>(mixed.loops[0].transitions.size()) / 2;
         const int powers_wanted =
             std::max(kFirstSlitPowers, std::min(largest + 2 * largest / slits, kMostSlitPowers / slits));
@@ -180,17 +181,19 @@ AdmissibleDifferentials mixed_differentials(const Surface& source, const CircleD
         largest = std::clamp(2 * largest, first, kLargestMixedDegree);
     }
     if (!straight) largest = std::min(largest, kMixedDegreeOfRim * degree_of_rim(source, result.chart));
+    if (most) largest = std::min(largest, *most);
     auto space = std::make_unique<MixedSpace>(std::move(mixed), std::min(first, largest), largest, powers);
     if (space->size() > 0) result.space = std::move(space);
     return result;
 }
 
 MixedProblem::MixedProblem(const Surface& source, MixedConditions conditions, const ExtremalOptions& options,
-                           std::size_t marks)
+                           std::size_t marks, std::optional<int> most)
     : SlidingProblem(source, prepare_mixed(source, conditions, options), conditions.outer_loop,
                      "boundary or prescribed"),
       conditions_(std::move(conditions)),
       marks_(marks),
+      most_(most),
       boundary_(mixed_boundary(this->source(), conditions_)) {
     feasible_places(boundary_);
     if (options.start) given_start_ = split() ? with_parents_means(*options.start, split()->parents) : *options.start;
@@ -201,6 +204,10 @@ std::vector<SlidingLoop> MixedProblem::feasible_places(const MixedBoundary& boun
     std::vector<SlidingLoop> result = places_on_curves(source(), domain(), boundary);
     require_feasible(source(), boundary, result, outer_loop());
     return result;
+}
+
+bool MixedProblem::prescribes_arcs() const {
+    return !all_slides(boundary_);
 }
 
 SlidingStart MixedProblem::start() const {
@@ -217,7 +224,7 @@ SlidingStart MixedProblem::start() const {
 }
 
 AdmissibleDifferentials MixedProblem::differentials(const Eigen::VectorXcd& start, BeltramiSolver&) const {
-    return mixed_differentials(source(), domain(), boundary_, start);
+    return mixed_differentials(source(), domain(), boundary_, start, most_);
 }
 
 std::vector<SlidingLoop> MixedProblem::move(const std::vector<Complex>& images) {

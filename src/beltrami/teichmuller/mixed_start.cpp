@@ -3,15 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <utility>
 
 #include <beltrami/base/error.h>
 #include <beltrami/operators/distortion.h>
+#include <beltrami/plane/increasing.h>
 #include <beltrami/solve/dirichlet_solver.h>
 #include <beltrami/solve/sliding_map_step.h>
 #include <beltrami/starts/given_start.h>
 #include <beltrami/unfold/fold_free.h>
+#include <beltrami/unfold/local_unfold.h>
 
 namespace beltrami {
 
@@ -28,6 +31,8 @@ constexpr int kPushes = 500;
 constexpr double kPush = 0.1, kReach = 0.9;
 /// Newton steps in which folds of the start are opened.
 constexpr int kOpeningSteps = 60;
+/// Least length of a step along a rim: parts of the mean of its neighbours, and of what arc length gives.
+constexpr double kOfNeighbours = 1e-3, kOfLength = 1e-5;
 
 /// The similarity a z + b that fits what is prescribed best, in least squares.
 struct Similarity {
@@ -58,6 +63,16 @@ bool ends_arc(const std::vector<char>& held, std::size_t i) {
     return held[i] && (!held[(i + 1) % n] || !held[(i + n - 1) % n]);
 }
 
+/// Steps along a rim that a chart has crowded to nothing get a length: a part of that of their neighbours, and of what
+/// the lengths of the edges would give them.
+void raise_crowded(const std::vector<double>& lengths, std::vector<double>& steps) {
+    raise_to_neighbours(steps, kOfNeighbours);
+    const double whole = std::accumulate(steps.begin(), steps.end(), 0.0),
+                 length = std::accumulate(lengths.begin(), lengths.end(), 0.0);
+    for (std::size_t i = 0; i < steps.size(); ++i)
+        steps[i] = std::max(steps[i], kOfLength * whole * lengths[i] / length);
+}
+
 /// Where the vertices of one loop stand along its curve.
 class LoopPlaces {
   public:
@@ -75,12 +90,15 @@ class LoopPlaces {
         const Complex centre = domain.circle(loop).centre;
         // Angles in the direction of the loop, ascending, once around and back to the first vertex.
         const double sign = loop == domain.outer_loop() ? 1 : -1;
-        turns_.push_back(0);
+        std::vector<double> steps;
         for (int i = 0; i < n; ++i) {
             const Complex z = domain.chart.vertices[vertices_[i]] - centre,
                           next = domain.chart.vertices[vertices_[(i + 1) % n]] - centre;
-            turns_.push_back(turns_.back() + sign * std::arg(next / z));
+            steps.push_back(std::max(sign * std::arg(next / z), 0.0));
         }
+        raise_crowded(source.boundary_edge_lengths[loop], steps);
+        turns_.push_back(0);
+        for (const double step : steps) turns_.push_back(turns_.back() + step);
         parameters_.assign(n, 0);
         const auto first = std::find(held_.begin(), held_.end(), 1);
         if (first == held_.end()) {
@@ -223,8 +241,16 @@ void open(const Surface& source, const std::vector<Freedom>& freedom, SlidingSta
     const FoldFreeMap opened =
         fold_free_map(source, freedom, Eigen::VectorXcd::Zero(source.operators.sample_count()), start.map, options);
     start.factorizations += opened.factorizations;
-    if (!opened.fold_free) return;
-    start.map = opened.map;
+    if (opened.fold_free) {
+        start.map = opened.map;
+        start.unfolded = true;
+        return;
+    }
+    // In crowded parts, smaller than what an energy of the whole sees.
+    LocalUnfolding by_parts = unfold_locally(source, freedom, start.map);
+    start.factorizations += by_parts.factorizations;
+    if (!by_parts.fold_free) return;
+    start.map = std::move(by_parts.map);
     start.unfolded = true;
 }
 

@@ -32,7 +32,9 @@ void raise_to_proofs(ExtremalMap& result) {
     if (!(found < least)) return;
     result.K = least;
     result.k = k_of(result.K);
-    if (!(found < (1 - kErrorOfEstimate) * result.K)) return;
+    // What the map attains is then as good as what is proved, whatever φ shows.
+    const bool attained = result.K_max > 0 && result.K_max <= (1 + kErrorOfEstimate) * result.K_lower_proved;
+    if (attained || !(found < (1 - kErrorOfEstimate) * result.K)) return;
     if (result.termination == Termination::converged) result.termination = Termination::below_bound;
     const std::string needed = least > result.K_lower_proved ? ", but quadrilaterals of the outline force about "
                                                              : ", but no map with these conditions has less than ";

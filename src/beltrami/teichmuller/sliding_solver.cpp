@@ -239,7 +239,18 @@ void SlidingSolver::finish(FoundMap found, ExtremalMap& result) {
         if (!finish.folded(found)) before_evening = found;
         result.evened = finish.even_out(found);
     }
-    if (options_.remove_folds) result.folds_removed = finish.open_folds(found, boundary_->in_place());
+    if (options_.remove_folds) {
+        result.folds_removed = finish.open_folds(found, boundary_->in_place());
+        if (const FoundMap start{begun_.start, found.step}; finish.folded(found) && !finish.folded(start)) {
+            const std::size_t flips = distortion(source().operators, found.map).flipped.size();
+            result.warnings.push_back({WarningKind::fallback, "the iteration ended with " + std::to_string(flips) +
+                                                                  " flipped faces that do not open; the map is that "
+                                                                  "from which it began, without folds"});
+            result.termination = Termination::unconfirmed;
+            found = start;
+            boundary_->adopt(found.map);
+        }
+    }
     finish.follow(found, 0);
     result.factorizations += finish.factorizations();
     record_space(*state_.space, phi_.expected_dimension, result);

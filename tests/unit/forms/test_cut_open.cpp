@@ -55,27 +55,28 @@ TEST(CutOpen, OnlyClosedSurfaces) {
     EXPECT_EQ(test::cause_of([] { cut_open(Surface(disk(3))); }), Cause::bad_mesh);
 }
 
-TEST(FoldFreeFlattening, OpensTheFoldsOfACutSpikySphere) {
-    // Between spikes conformal equivalence flips edges, and the faces themselves come out flipped.
-    Mesh mesh = octahedral_sphere(3);
-    Random random(5);
-    for (int v = 0; v < mesh.vertex_count(); ++v) mesh.positions.row(v) *= random.uniform(0.4, 2.5);
-    const Mesh disk = cut_open(Surface(mesh)).disk;
-    const Surface surface(disk);
-    ASSERT_FALSE(flatten(disk).flipped.empty());
-    const FoldFreeFlattening found = fold_free_flattening(surface);
-    EXPECT_TRUE(found.fold_free);
-    EXPECT_FALSE(found.unfolded.empty());
-    const Distortion measured = distortion(surface.operators, found.flattening.positions);
-    EXPECT_TRUE(measured.flipped.empty());
-    EXPECT_LT(measured.mean, 0.5);
-    if (found.kept_boundary) {
+TEST(FoldFreeFlattening, OpensTheFoldsOfCutSpikySpheres) {
+    // Between spikes conformal equivalence flips edges, and faces themselves come out flipped.
+    int folded = 0;
+    for (const int seed : {1, 2, 3, 4, 5, 6}) {
+        Mesh mesh = octahedral_sphere(3);
+        Random random(seed);
+        for (int v = 0; v < mesh.vertex_count(); ++v) mesh.positions.row(v) *= random.uniform(0.1, 4);
+        const Surface surface(cut_open(Surface(mesh)).disk);
+        const FoldFreeFlattening found = fold_free_flattening(surface);
+        EXPECT_TRUE(found.fold_free) << seed;
+        EXPECT_EQ(found.unfolded, distortion(surface.operators, flatten(surface.mesh).positions).flipped);
+        EXPECT_TRUE(distortion(surface.operators, found.flattening.positions).flipped.empty());
+        folded += static_cast<int>(!found.unfolded.empty());
+        if (!found.kept_boundary) continue;
         const std::vector<int>& loop = surface.topology.boundary_loops[0];
-        for (std::size_t i = 0; i < loop.size(); ++i)
-            EXPECT_NEAR(
-                std::abs(found.flattening.positions[loop[(i + 1) % loop.size()]] - found.flattening.positions[loop[i]]),
-                surface.boundary_edge_lengths[0][i], 1e-6);
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const Complex here = found.flattening.positions[loop[i]],
+                          next = found.flattening.positions[loop[(i + 1) % loop.size()]];
+            EXPECT_NEAR(std::abs(next - here) / surface.boundary_edge_lengths[0][i], 1, 1e-6);
+        }
     }
+    EXPECT_GT(folded, 0);
 }
 
 }  // namespace

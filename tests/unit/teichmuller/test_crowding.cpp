@@ -14,8 +14,8 @@ namespace beltrami {
 namespace {
 
 /// A strip of height 1, rolled up a little: a chart shrinks its ends like e^(-width π/2).
-Surface strip(int width) {
-    Mesh mesh = rectangle(width, 1, 8 * width, 8);
+Surface strip(int width, int cells = 8) {
+    Mesh mesh = rectangle(width, 1, cells * width, cells);
     const Positions flat = mesh.positions;
     mesh.positions.resize(flat.rows(), 3);
     for (Eigen::Index v = 0; v < flat.rows(); ++v)
@@ -24,7 +24,7 @@ Surface strip(int width) {
 }
 
 TEST(Crowding, OfLongStripsByArcLength) {
-    for (const auto& [width, crowds] : {std::pair(2, false), {3, false}, {9, true}}) {
+    for (const auto& [width, crowds] : {std::pair(2, false), {4, false}, {14, true}}) {
         const Surface source = strip(width);
         const Eigen::VectorXcd harmonic = harmonic_map(source, boundary_to_disk(source, 0));
         EXPECT_EQ(values_crowd(source, round_disk_chart(source), harmonic), crowds) << width;
@@ -32,7 +32,7 @@ TEST(Crowding, OfLongStripsByArcLength) {
 }
 
 TEST(Crowding, ProductsAreOrthonormalAndSquaresOfHolomorphicForms) {
-    const Surface source = strip(4);
+    const Surface source = strip(2, 24);
     const BeltramiSolver solver = dirichlet_solver(source);
     const Eigen::VectorXcd harmonic = harmonic_map(source, boundary_to_disk(source, 0));
     const TabulatedSpace space = form_product_space(source, solver, harmonic);
@@ -45,7 +45,7 @@ TEST(Crowding, ProductsAreOrthonormalAndSquaresOfHolomorphicForms) {
     // Holomorphic: nothing pairs with ∂̄V, V vanishing on the boundary, but what the mesh leaves over.
     Eigen::VectorXcd V(source.operators.vertex_count);
     for (int v = 0; v < V.size(); ++v) {
-        const double x = source.mesh.positions(v, 0) / 4, y = source.mesh.positions(v, 1);
+        const double x = source.mesh.positions(v, 0) / 2, y = source.mesh.positions(v, 1);
         V[v] = Complex(1, 0.5) * std::sin(3 * x) * x * (1 - x) * y * (1 - y);
     }
     Eigen::VectorXcd dbar(values.rows());
@@ -55,11 +55,11 @@ TEST(Crowding, ProductsAreOrthonormalAndSquaresOfHolomorphicForms) {
         size += areas[s] * std::norm(dbar[s]);
     }
     const Eigen::VectorXcd pairing = values.transpose() * areas.asDiagonal() * dbar;
-    EXPECT_LT(pairing.cwiseAbs().maxCoeff(), 0.1 * std::sqrt(size));
+    EXPECT_LT(pairing.cwiseAbs().maxCoeff(), 0.2 * std::sqrt(size));
 }
 
 TEST(Crowding, TheExtremalMapIsEven) {
-    const Surface source = strip(9);
+    const Surface source = strip(14);
     const ExtremalMap result = extremal_map(source, boundary_to_disk(source, 0.3));
     EXPECT_TRUE(result.one_to_one());
     EXPECT_FALSE(result.in_chart);

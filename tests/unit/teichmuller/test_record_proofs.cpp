@@ -64,6 +64,9 @@ TEST(Proofs, ATriangleIsAffine) {
     const ExtremalMap result = extremal_map(surface, boundary);
     expect_ordered(result);
     EXPECT_NEAR(result.K_lower_proved, result.K_max, 1e-9);
+    // φ shows less, but the map is proved to be extremal.
+    EXPECT_EQ(result.termination, Termination::converged);
+    EXPECT_TRUE(result.warnings.empty());
 }
 
 TEST(Proofs, SmoothProblemsKeepTheirEstimates) {
