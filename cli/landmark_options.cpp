@@ -23,11 +23,18 @@ int index_of(const std::string& path, const NumberRow& row, double number) {
     return static_cast<int>(number);
 }
 
-double diagonal(const Mesh& mesh) {
-    return (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).norm();
+}  // namespace
+
+int index_at(const std::string& path, const NumberRow& row, std::size_t column) {
+    return index_of(path, row, row.numbers[column]);
 }
 
-/// The place that a row names from some column on: a vertex, or a point of space.
+bool is_far(const NearestPlace& place, const MeshInput& target) {
+    const Mesh& mesh = target.mesh;
+    const double diagonal = (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).norm();
+    return place.distance > kFar * diagonal * target.unit;
+}
+
 NearestPlace place_at(const std::string& path, const NumberRow& row, std::size_t column, const MeshInput& target) {
     const std::vector<double>& n = row.numbers;
     if (n.size() == column + 1) {
@@ -45,8 +52,6 @@ NearestPlace place_at(const std::string& path, const NumberRow& row, std::size_t
     nearest.distance *= target.unit;
     return nearest;
 }
-
-}  // namespace
 
 void LandmarkOptions::add_to(CLI::App& app) {
     app.add_option("--landmarks", landmarks_,
@@ -75,13 +80,12 @@ std::vector<SurfaceLandmark> LandmarkOptions::landmarks(const MeshInput& source,
             throw Error(Cause::bad_option, "--weights without --landmarks", "give the landmarks too");
         return result;
     }
-    const double far = kFar * diagonal(target.mesh) * target.unit;
     std::vector<int> lines;
     for (const NumberRow& row : read_number_rows(landmarks_, 2, 4, "a landmark")) {
-        const int vertex = source.number_of(index_of(landmarks_, row, row.numbers[0]), "a landmark");
+        const int vertex = source.number_of(index_at(landmarks_, row, 0), "a landmark");
         const NearestPlace nearest = place_at(landmarks_, row, 1, target);
         result.push_back({vertex, nearest.place});
-        if (nearest.distance > far) lines.push_back(static_cast<int>(row.line) - 1);
+        if (is_far(nearest, target)) lines.push_back(static_cast<int>(row.line) - 1);
     }
     if (!lines.empty())
         warnings.push_back({WarningKind::marks,
@@ -90,7 +94,7 @@ std::vector<SurfaceLandmark> LandmarkOptions::landmarks(const MeshInput& source,
                             {Things::lines, lines}});
     if (weights_.empty()) return result;
     for (const NumberRow& row : read_number_rows(weights_, 2, 2, "a weight: `source_vertex weight`")) {
-        const int vertex = source.number_of(index_of(weights_, row, row.numbers[0]), "a landmark");
+        const int vertex = source.number_of(index_at(weights_, row, 0), "a landmark");
         const double weight = row.numbers[1];
         if (!(weight > 0 && std::isfinite(weight)))
             fail_at_row(weights_, row, fmt::format("the weight {} is not positive", weight));
@@ -106,8 +110,8 @@ std::vector<SurfaceWaypoint> LandmarkOptions::waypoints(const MeshInput& source,
     std::vector<SurfaceWaypoint> result;
     if (waypoints_.empty()) return result;
     for (const NumberRow& row : read_number_rows(waypoints_, 3, 5, "a waypoint")) {
-        const int step = index_of(waypoints_, row, row.numbers[0]);
-        const int vertex = source.number_of(index_of(waypoints_, row, row.numbers[1]), "a landmark");
+        const int step = index_at(waypoints_, row, 0);
+        const int vertex = source.number_of(index_at(waypoints_, row, 1), "a landmark");
         result.push_back({step, vertex, place_at(waypoints_, row, 2, target).place});
     }
     return result;

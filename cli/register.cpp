@@ -4,6 +4,7 @@
 #include <beltrami/registration/nearest_places.h>
 
 #include "command.h"
+#include "curve_option.h"
 #include "landmark_options.h"
 #include "mesh_input.h"
 #include "output.h"
@@ -31,6 +32,14 @@ class Register final : public Command {
             ->required()
             ->type_name("OUT");
         landmarks_.add_to(*app);
+        curves_.add_to(*app);
+        app->add_option(
+               "--method", method_,
+               "extremal: least dilatation; lp: least Lᵖ norm of abs(mu), for closed surfaces, with curves too")
+            ->check(CLI::IsMember({"extremal", "lp"}));
+        app->add_option("--p", p_, "p of that norm; the larger the more even abs(mu) becomes")
+            ->check(CLI::Range(2.0, 64.0))
+            ->capture_default_str();
         app->add_option("--start-map", start_,
                         "begin with the map that takes SOURCE's vertices to the points of TARGET nearest to this "
                         "mesh's: SOURCE's vertices and faces in their order, as OUT has them")
@@ -55,6 +64,8 @@ class Register final : public Command {
     int run() override {
         require_mesh_format(output_);
         std::vector<NamedFile> inputs = landmarks_.inputs();
+        const std::vector<NamedFile> curve_files = curves_.inputs();
+        inputs.insert(inputs.end(), curve_files.begin(), curve_files.end());
         inputs.insert(inputs.end(), {{"SOURCE", source_}, {"TARGET", target_}, {"--start-map", start_}});
         common_.check_files(inputs, {{"-o", output_}, {"--places", places_}});
         record_.command = "register";
@@ -70,6 +81,11 @@ class Register final : public Command {
         if (is_closed(source) != is_closed(target))
             throw Error(Cause::bad_mesh, "one of SOURCE and TARGET is closed and the other has a boundary",
                         "fill the holes of the one, or cut the other open");
+        if (least_lp()) {
+            run_least_lp(source, target, landmarks, curves_.curves(source_input, target_input, record_.warnings),
+                         options, source_input, target_input);
+            return 0;
+        }
         Progress progress(!common_.quiet);
         options.map.progress = [&](int iteration, double k) {
             progress.show(iteration, k);
@@ -88,6 +104,34 @@ class Register final : public Command {
     }
 
   private:
+    bool least_lp() const {
+        if (curves_.given() && method_ == "extremal")
+            throw Error(Cause::bad_option, "curves belong to least Lᵖ maps", "give --method lp");
+        return method_ == "lp" || curves_.given();
+    }
+
+    void run_least_lp(const Surface& source, const Surface& target, const std::vector<SurfaceLandmark>& landmarks,
+                      const std::vector<CurvePair>& curves, const RegistrationOptions& given,
+                      const MeshInput& source_input, const MeshInput& target_input) {
+        if (!is_closed(source))
+            throw Error(Cause::bad_option, "least Lᵖ maps and curves are for closed surfaces",
+                        "fill the holes of both surfaces, or leave --method and --curves out");
+        if (!given.waypoints.empty())
+            throw Error(Cause::bad_option, "--waypoints belong to --method extremal",
+                        "lead curves instead, or begin with --start-map");
+        CurveRegistrationOptions options;
+        options.p = p_;
+        options.start = given.start;
+        if (max_iterations_) options.flow.max_iterations = *max_iterations_;
+        const LpRegistration found = register_least_lp(source, target, landmarks, curves, options);
+        append(record_.warnings, found.warnings);
+        record_.map = map_record(found.carried.distortion);
+        record_.solve = solve_record(found.map, seconds() - begun_);
+        record_.registration = registration_record(found, p_, target_, landmarks.size());
+        record_.registration->lp->curve_distance *= target_input.unit;
+        write(found, found.carried.distortion, source_input, target_input);
+    }
+
     static bool is_closed(const Surface& surface) { return surface.topology.boundary_loops.empty(); }
 
     OpenRegistration open(const Surface& source, const Surface& target, const std::vector<SurfaceLandmark>& landmarks,
@@ -111,10 +155,15 @@ class Register final : public Command {
         record_.solve = solve_record(found.map, seconds() - begun_);
         record_.registration = registration_record(found, target_, landmarks.size());
         if (record_.registration->largest_distance) *record_.registration->largest_distance *= target.unit;
-        write_at(output_, source.mesh.faces, target.unit * found.positions, found.map.distortion, source.attributes);
+        write(found, found.map.distortion, source, target);
+    }
+
+    void write(const CarriedSurface& found, const Distortion& distortion, const MeshInput& source,
+               const MeshInput& target) {
+        write_at(output_, source.mesh.faces, target.unit * found.positions, distortion, source.attributes);
         if (!places_.empty()) write_places(places_, target.mesh, found.places);
-        write_page(common_, source.mesh, {{"registration", found.positions, found.map.distortion.face_abs_mu}}, {},
-                   record_, source_);
+        write_page(common_, source.mesh, {{"registration", found.positions, distortion.face_abs_mu}}, {}, record_,
+                   source_);
         finish(record_, common_, "registration", {output_, places_, common_.json, common_.report});
     }
 
@@ -152,6 +201,9 @@ class Register final : public Command {
     int outer_ = 0, target_outer_ = 0;
     double begun_ = seconds();
     LandmarkOptions landmarks_;
+    CurveOption curves_;
+    std::string method_;
+    double p_ = 2;
     MeshInputOptions options_;
 };
 

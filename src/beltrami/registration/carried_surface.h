@@ -18,14 +18,18 @@ struct CarriedSurface {
     /// Of the straight faces in space between those: where they follow the target badly they differ from the map, and
     /// may be flipped, though the map is not.
     Distortion in_space;
-    /// Faces whose straight image and the map differ by a dilatation above 3: the mesh does not resolve the map there.
+    /// Faces whose straight image and the map differ by a dilatation above 3, or miss a vertex of the target that the
+    /// map takes into them by more than their longest side: limbs inside a few faces. The mesh does not resolve the map
+    /// there.
     std::vector<int> unresolved;
     /// Of soft landmarks the largest distance in space from their places; empty without any.
     std::optional<double> largest_distance;
 
     /// Measures what is between the places.
     /// @param mu #S coefficients of the map in the source's frames
-    void measure(const Surface& source, const Surface& target, const Eigen::VectorXcd& mu);
+    /// @param back #V of the target: places on the source to which the inverse map takes its vertices; empty: not known
+    void measure(const Surface& source, const Surface& target, const Eigen::VectorXcd& mu,
+                 std::span<const MeshPoint> back = {});
 };
 
 }  // namespace beltrami

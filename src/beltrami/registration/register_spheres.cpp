@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 #include <Eigen/Geometry>
@@ -15,7 +16,8 @@ namespace beltrami {
 
 namespace {
 
-constexpr int kMostSteps = 1000;  // of a way
+constexpr int kMostSteps = 1000;     // of a way
+constexpr double kLeastLimb = 1e-3;  // on the sphere, of a limb that a landmark is in
 
 template <class Call>
 auto of_surface(const char* name, Call&& call) {
@@ -54,10 +56,10 @@ std::vector<Positions> stops(std::span<const SurfaceWaypoint> waypoints, std::sp
 }
 
 /// k of the map back, which takes every vertex of the target to its place in the source's sphere.
-double k_of_inverse(const Surface& source, const Surface& target, std::span<const SurfaceLandmark> landmarks,
-                    const SphereRegistration& found, int cluster_count) {
-    const SphereLocator locator(source.mesh.faces, found.map.positions);
-    Positions back = on_sphere(found.source_sphere.positions, locator.locate(found.target_sphere.positions));
+/// @param places of these vertices on the source
+double k_of_inverse(const Surface& target, std::span<const SurfaceLandmark> landmarks, const SphereRegistration& found,
+                    std::span<const MeshPoint> places, int cluster_count) {
+    Positions back = on_sphere(found.source_sphere.positions, places);
     std::vector<int> vertices;
     for (const SurfaceLandmark& landmark : landmarks) {
         const MeshPoint& place = found.places[landmark.vertex];
@@ -67,6 +69,29 @@ double k_of_inverse(const Surface& source, const Surface& target, std::span<cons
     }
     SphereProblem problem(target, found.target_sphere.positions, vertices, cluster_count);
     return problem.coefficient_step(beltrami_coefficient(target.operators, back, back)).k;
+}
+
+/// @throw Error bad_boundary for a landmark of four or more around which a thousandth of the surface lies within 1e-3
+/// on
+///        its sphere: deep inside a limb, of which a map to the sphere keeps hardly any digits
+template <class VertexOf>
+void require_outside_limbs(const char* name, const Surface& surface, const Positions& sphere,
+                           std::span<const SurfaceLandmark> landmarks, VertexOf&& vertex_of) {
+    if (landmarks.size() < 4) return;
+    for (const SurfaceLandmark& landmark : landmarks) {
+        const int vertex = vertex_of(landmark);
+        const double size = limb_size(surface, sphere, vertex);
+        if (size >= kLeastLimb) continue;
+        char text[32];
+        std::snprintf(text, sizeof text, "%.1g", size);
+        throw Error(
+            Cause::bad_boundary,
+            std::string("the ") + name + ": vertex " + std::to_string(vertex) +
+                " of a landmark lies deep inside a thin limb: the thousandth of the surface around it lies within " +
+                text + " on the conformal sphere",
+            "move it to where the limb begins, leave it out, or cut the limb off",
+            {Things::vertices, {landmark.vertex}});
+    }
 }
 
 }  // namespace
@@ -80,6 +105,10 @@ SphereRegistration register_spheres(const Surface& source, const Surface& target
     result.target_sphere = of_surface("target", [&] { return sphere_map(target, options.sphere); });
     const Positions& sphere = result.target_sphere.positions;
     std::vector<SphereLandmark> images;
+    require_outside_limbs("source", source, result.source_sphere.positions, landmarks,
+                          [](const SurfaceLandmark& landmark) { return landmark.vertex; });
+    require_outside_limbs("target", target, sphere, landmarks,
+                          [](const SurfaceLandmark& landmark) { return nearest_vertex(landmark.place); });
     for (const SurfaceLandmark& landmark : landmarks)
         images.push_back({landmark.vertex, sphere_place(sphere, landmark.place),
                           landmark.weight * squared_scale(target, sphere, landmark.place)});
@@ -90,10 +119,11 @@ SphereRegistration register_spheres(const Surface& source, const Surface& target
 
     result.places = SphereLocator(target.mesh.faces, sphere).locate(result.map.positions);
     meet_landmarks(landmarks, result);
-    result.measure(source, target, result.map.distortion.mu);
+    const std::vector<MeshPoint> back = SphereLocator(source.mesh.faces, result.map.positions).locate(sphere);
+    result.measure(source, target, result.map.distortion.mu, back);
     measure_landmarks(target.mesh, landmarks, result);
     if (options.check_inverse && landmarks.size() > 3)
-        result.inverse_k = k_of_inverse(source, target, landmarks, result, how.cluster_count);
+        result.inverse_k = k_of_inverse(target, landmarks, result, back, how.cluster_count);
     for (const auto& [name, warnings] :
          {std::pair{"source", &result.source_sphere.warnings}, std::pair{"target", &result.target_sphere.warnings}})
         for (const Warning& warning : *warnings) result.warnings.push_back(prefixed(name, warning));

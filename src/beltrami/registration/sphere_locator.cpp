@@ -59,8 +59,16 @@ int SphereLocator::walk(int triangle, const Eigen::Vector3d& point) const {
     return best;
 }
 
+Eigen::Vector3d SphereLocator::middle(int t) const {
+    const auto& [a, b, c] = triangles_[t];
+    return (point(a) + point(b) + point(c)).normalized();
+}
+
 MeshPoint SphereLocator::locate(const Eigen::Vector3d& point) const {
-    const int triangle = walk(nearest_.nearest(point).triangle, point);
+    return place_in(triangle_at(point), point);
+}
+
+MeshPoint SphereLocator::place_in(int triangle, const Eigen::Vector3d& point) const {
     std::array<double, 3> w = weights(triangle, point);
     double sum = 0;
     for (double& weight : w) sum += weight = std::max(weight, 0.0);

@@ -23,6 +23,18 @@ class SphereLocator {
     /// Of many points (one row each), on all threads.
     std::vector<MeshPoint> locate(const Positions& points) const;
 
+    int triangle_count() const { return static_cast<int>(triangles_.size()); }
+    const std::array<int, 3>& triangle(int t) const { return triangles_[t]; }
+    /// The triangles beyond the edges opposite to each corner, −1 beyond a boundary.
+    const std::array<int, 3>& across(int t) const { return across_[t]; }
+    Eigen::Vector3d point(int vertex) const { return points_.row(vertex); }
+    /// On the sphere.
+    Eigen::Vector3d middle(int t) const;
+    /// The triangle that contains a point.
+    int triangle_at(const Eigen::Vector3d& point) const { return walk(nearest_.nearest(point).triangle, point); }
+    /// The place of a point of a triangle.
+    MeshPoint place_in(int triangle, const Eigen::Vector3d& point) const;
+
   private:
     std::array<double, 3> weights(int triangle, const Eigen::Vector3d& point) const;
     int walk(int triangle, const Eigen::Vector3d& point) const;

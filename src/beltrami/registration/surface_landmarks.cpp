@@ -2,11 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <queue>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <beltrami/base/error.h>
 
 namespace beltrami {
+
+namespace {
+
+constexpr double kLimbPart = 1e-3;  // of the area, around a vertex
+
+}  // namespace
 
 MeshPoint place_of_vertex(const Mesh& mesh, int vertex) {
     for (int f = 0; f < mesh.face_count(); ++f) {
@@ -36,6 +45,37 @@ double squared_scale(const Surface& surface, const Positions& chart, const MeshP
         there += face_vector_area(image, f).norm();
     }
     return in_space / (there * surface.operators.area());
+}
+
+double limb_size(const Surface& surface, const Positions& sphere, int vertex) {
+    const Mesh& mesh = surface.mesh;
+    std::vector<std::vector<int>> faces_at(static_cast<std::size_t>(mesh.vertex_count()));
+    for (int f = 0; f < mesh.face_count(); ++f)
+        for (const int v : mesh.faces[f]) faces_at[v].push_back(f);
+    std::vector<double> distance(faces_at.size(), std::numeric_limits<double>::infinity());
+    std::vector<char> counted(static_cast<std::size_t>(mesh.face_count()), 0);
+    using Entry = std::pair<double, int>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    distance[vertex] = 0;
+    queue.emplace(0.0, vertex);
+    double area = 0, farthest = 0;
+    while (!queue.empty() && area < kLimbPart * surface.operators.area()) {
+        const auto [so_far, v] = queue.top();
+        queue.pop();
+        if (so_far > distance[v]) continue;
+        for (const int f : faces_at[v]) {
+            if (!counted[f]) area += face_vector_area(mesh, f).norm();
+            counted[f] = 1;
+            for (const int w : mesh.faces[f]) {
+                farthest = std::max(farthest, (sphere.row(w) - sphere.row(vertex)).norm());
+                if (const double there = so_far + (mesh.point(w) - mesh.point(v)).norm(); there < distance[w]) {
+                    distance[w] = there;
+                    queue.emplace(there, w);
+                }
+            }
+        }
+    }
+    return farthest;
 }
 
 void meet_landmarks(std::span<const SurfaceLandmark> landmarks, CarriedSurface& carried) {

@@ -30,6 +30,10 @@ int nearest_vertex(const MeshPoint& place);
 /// @param chart #V×3 or #V×2
 double squared_scale(const Surface& surface, const Positions& chart, const MeshPoint& place);
 
+/// How far from a vertex, on the sphere, the thousandth of a surface's area around it reaches: tiny inside limbs.
+/// @param sphere #V×3
+double limb_size(const Surface& surface, const Positions& sphere, int vertex);
+
 /// Puts landmarks that are to be met at their places exactly.
 void meet_landmarks(std::span<const SurfaceLandmark> landmarks, CarriedSurface& carried);
 /// How far the others are from theirs.

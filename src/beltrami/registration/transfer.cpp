@@ -3,16 +3,17 @@
 #include <algorithm>
 #include <string>
 
+#include <Eigen/Geometry>
+
 #include <beltrami/base/error.h>
 #include <beltrami/base/parallel.h>
+#include <beltrami/registration/overlay.h>
 #include <beltrami/registration/sphere_locator.h>
 #include <beltrami/sphere/unit_sphere.h>
 
 namespace beltrami {
 
 namespace {
-
-constexpr int kDivisions = 4;  // of the edges of a triangle over which face values are averaged
 
 std::vector<MeshPoint> carried(const Positions& from, const SphereLocator& to, std::span<const MeshPoint> places) {
     std::vector<MeshPoint> result(places.size());
@@ -32,20 +33,6 @@ struct Seen {
         return way == TransferWay::to_target ? map.back(places) : map.forward(places);
     }
 };
-
-/// Middles of the 16 parts of a face's triangles.
-std::vector<MeshPoint> points_inside(const Mesh& mesh, int face) {
-    const auto v = mesh.faces[face];
-    std::vector<MeshPoint> points;
-    for (std::size_t t = 1; t + 1 < v.size(); ++t)
-        for (int i = 0; i < kDivisions; ++i)
-            for (int j = 0; i + j < kDivisions; ++j)
-                for (const double shift : {1.0 / 3, 2.0 / 3}) {
-                    const double a = (i + shift) / kDivisions, b = (j + shift) / kDivisions;
-                    if (a + b < 1) points.push_back({face, {v[0], v[t], v[t + 1]}, {1 - a - b, a, b}});
-                }
-    return points;
-}
 
 }  // namespace
 
@@ -116,11 +103,20 @@ Positions transferred_face_values(const SurfaceCorrespondence& map, const Positi
         throw Error(Cause::bad_option, std::to_string(values.rows()) + " rows of values for " +
                                            std::to_string(seen.from().face_count()) + " faces");
     Positions result = Positions::Zero(seen.to().face_count(), values.cols());
-    for (int f = 0; f < seen.to().face_count(); ++f) {
-        const std::vector<MeshPoint> there = seen.origins(points_inside(seen.to(), f));
-        for (const MeshPoint& place : there) result.row(f) += values.row(place.face);
-        result.row(f) /= static_cast<double>(there.size());
+    Eigen::VectorXd covered = Eigen::VectorXd::Zero(seen.to().face_count());
+    for (const Overlay::Piece& piece : overlay(map).pieces) {
+        const bool back = way == TransferWay::to_source;
+        const int from = back ? piece.target_face : piece.source_face,
+                  to = back ? piece.source_face : piece.target_face;
+        const auto& [a, b, c] = back ? piece.source_triangle : piece.target_triangle;
+        const Eigen::Vector3d side = seen.to().point(b) - seen.to().point(a),
+                              other = seen.to().point(c) - seen.to().point(a);
+        const double area = (back ? piece.part_of_source : piece.part_of_target) * side.cross(other).norm();
+        result.row(to) += area * values.row(from);
+        covered[to] += area;
     }
+    for (Eigen::Index f = 0; f < covered.size(); ++f)
+        if (covered[f] > 0) result.row(f) /= covered[f];
     return result;
 }
 

@@ -32,6 +32,8 @@ class SurfaceCorrespondence {
     /// Places of the target on the source.
     std::vector<MeshPoint> back(std::span<const MeshPoint> places) const;
 
+    const SphereLocator& on_source() const { return *on_source_; }
+    const SphereLocator& on_target() const { return *on_target_; }
     const Mesh& source() const { return source_; }
     const Mesh& target() const { return target_; }
 
@@ -49,7 +51,8 @@ enum class TransferWay { to_target, to_source };
 Positions transferred_vertex_values(const SurfaceCorrespondence& map, const Positions& values,
                                     TransferWay way = TransferWay::to_target);
 
-/// Values of the faces of one surface (#F×any) as means over the other's faces, by 16 points a triangle.
+/// Values of the faces of one surface (#F×any) as means over the other's faces, exactly (overlay.h): the sum of values
+/// times areas of the parts that faces cover is the same.
 /// @throw Error bad_option if there are not #F of them
 Positions transferred_face_values(const SurfaceCorrespondence& map, const Positions& values,
                                   TransferWay way = TransferWay::to_target);

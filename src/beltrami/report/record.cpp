@@ -162,6 +162,18 @@ RegistrationRecord registration_record(const SphereRegistration& result, const s
     return record;
 }
 
+SolveRecord solve_record(const SurfaceFlowMap& result, double seconds_total) {
+    return {result.iterations, to_string(result.termination), result.factorizations, seconds_total, {}, false};
+}
+
+RegistrationRecord registration_record(const LpRegistration& result, double p, const std::string& target,
+                                       std::size_t landmarks) {
+    RegistrationRecord record = carried_record(result, target, landmarks);
+    record.lp = {p, static_cast<int>(result.source.curves.size()), static_cast<int>(result.start_flipped.size()),
+                 result.curve_distance};
+    return record;
+}
+
 RegistrationRecord registration_record(const OpenRegistration& result, const std::string& target,
                                        std::size_t landmarks) {
     return carried_record(result, target, landmarks);

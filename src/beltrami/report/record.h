@@ -10,6 +10,7 @@
 #include <beltrami/flow/surface_flow.h>
 #include <beltrami/forms/flat_torus.h>
 #include <beltrami/forms/period_matrix.h>
+#include <beltrami/registration/register_curves.h>
 #include <beltrami/registration/register_open.h>
 #include <beltrami/registration/register_spheres.h>
 #include <beltrami/report/grid_record.h>
@@ -250,6 +251,9 @@ TorusRecord torus_record(const FlatTorus& torus);
 MapRecord map_record(const ExtremalSphereMap& result);
 SolveRecord solve_record(const ExtremalSphereMap& result, double seconds_total);
 RegistrationRecord registration_record(const SphereRegistration& result, const std::string& target,
+                                       std::size_t landmarks);
+SolveRecord solve_record(const SurfaceFlowMap& result, double seconds_total);
+RegistrationRecord registration_record(const LpRegistration& result, double p, const std::string& target,
                                        std::size_t landmarks);
 RegistrationRecord registration_record(const OpenRegistration& result, const std::string& target,
                                        std::size_t landmarks);

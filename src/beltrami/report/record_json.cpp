@@ -162,6 +162,11 @@ Json to_object(const RegistrationRecord& registration) {
         object["by_phi"] = {{"mean", number(sphere->weighted_mean)}, {"std", number(sphere->weighted_deviation)}};
         object["separation"] = number(sphere->separation);
     }
+    if (const auto& lp = registration.lp)
+        object["lp"] = {{"p", lp->p},
+                        {"curves", lp->curves},
+                        {"start_flipped", lp->start_flipped},
+                        {"curve_distance", lp->curve_distance}};
     object["flipped_in_space"] = registration.flipped_in_space;
     object["unresolved"] = registration.unresolved;
     put(object, "inverse_k", registration.inverse_k);

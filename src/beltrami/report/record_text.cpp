@@ -110,6 +110,9 @@ std::string lines_of(const RegistrationRecord& registration) {
                             sphere->weighted_deviation);
     text += fmt::format("straight faces in space: {} flipped, {} where the mesh does not resolve the map\n",
                         registration.flipped_in_space, registration.unresolved);
+    if (registration.lp && registration.lp->curves > 0)
+        text += fmt::format("vertices of curves are at most {:.2g} away from their partners\n",
+                            registration.lp->curve_distance);
     if (registration.inverse_k) text += fmt::format("the inverse map has k = {:.4f}\n", *registration.inverse_k);
     if (registration.largest_distance)
         text +=

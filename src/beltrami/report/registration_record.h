@@ -17,6 +17,13 @@ struct RegistrationRecord {
         double separation = 0;                             ///< least distance of two landmarks on the conformal spheres
     };
     std::optional<OnSphere> sphere;
+    /// Of least Lᵖ maps.
+    struct LeastLp {
+        double p = 2;
+        int curves = 0, start_flipped = 0;  ///< faces that the start had flipped
+        double curve_distance = 0;          ///< largest of a vertex of a curve from its partner, in the target's units
+    };
+    std::optional<LeastLp> lp;
     int flipped_in_space = 0;  ///< straight faces between the places
     int unresolved = 0;        ///< faces on which the mesh does not resolve the map
     std::optional<double> inverse_k;

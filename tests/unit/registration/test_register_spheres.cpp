@@ -1,6 +1,7 @@
 #include <beltrami/registration/register_spheres.h>
 
 #include <cmath>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -8,6 +9,7 @@
 #include <beltrami/charts/chart_places.h>
 #include <beltrami/generate/grids.h>
 #include <beltrami/generate/sphere.h>
+#include <beltrami/registration/overlay.h>
 #include <beltrami/registration/sphere_locator.h>
 #include <beltrami/registration/transfer.h>
 
@@ -112,6 +114,27 @@ TEST(RegisterSpheres, NamesTheSurfaceThatCannotBe) {
     EXPECT_EQ(test::cause_of([&] { register_spheres(ball, ball, {}, options); }), Cause::bad_option);
 }
 
+TEST(RegisterSpheres, RefusesALandmarkInsideALimb) {
+    // A ball with a spike: half of its length is a speck on the sphere.
+    Mesh mesh = icosahedral_sphere(4);
+    for (int v = 0; v < mesh.vertex_count(); ++v) {
+        const Eigen::Vector3d p = mesh.point(v);
+        const double off = std::hypot(p.x(), p.y());
+        if (p.z() > 0 && off < 0.3) mesh.positions(v, 2) += 3 * std::pow(1 - off / 0.3, 1.5);
+    }
+    const Surface surface(mesh);
+    int tip = 0;
+    for (int v = 0; v < mesh.vertex_count(); ++v)
+        if (mesh.positions(v, 2) > mesh.positions(tip, 2)) tip = v;
+    try {
+        register_spheres(surface, surface, landmarks_between(mesh, {{0, 0}, {1, 1}, {2, 2}, {3, 3}, {tip, tip}}));
+        ADD_FAILURE();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.cause(), Cause::bad_boundary);
+        EXPECT_NE(std::string(error.what()).find("thin limb"), std::string::npos) << error.what();
+    }
+}
+
 TEST(SurfaceCorrespondence, ComesBackToWhereItBegan) {
     const Surface source(bumpy(3, 0)), target(bumpy(4, 1));
     const SphereRegistration found =
@@ -133,6 +156,24 @@ TEST(SurfaceCorrespondence, ComesBackToWhereItBegan) {
     EXPECT_NEAR(there(3, 1), 3, 1e-6);
     Positions areas = Positions::Ones(target.mesh.face_count(), 1);
     EXPECT_LT((transferred_face_values(map, areas, TransferWay::to_source).array() - 1).abs().maxCoeff(), 1e-12);
+    // Exactly: integrals of values over the parts of faces are the same on both sides.
+    const Overlay both = overlay(map);
+    Eigen::VectorXd of_source = Eigen::VectorXd::Zero(source.mesh.face_count()),
+                    of_target = Eigen::VectorXd::Zero(target.mesh.face_count());
+    for (const Overlay::Piece& piece : both.pieces) {
+        of_source[piece.source_face] += piece.part_of_source;
+        of_target[piece.target_face] += piece.part_of_target;
+    }
+    EXPECT_LT((of_source.array() - 1).abs().maxCoeff(), 1e-9);
+    EXPECT_LT((of_target.array() - 1).abs().maxCoeff(), 1e-9);
+    Positions numbers(source.mesh.face_count(), 1);
+    for (int f = 0; f < numbers.rows(); ++f) numbers(f, 0) = f;
+    const Positions means = transferred_face_values(map, numbers);
+    double whole = 0, expected = 0;
+    for (int f = 0; f < target.mesh.face_count(); ++f) whole += means(f, 0) * face_vector_area(target.mesh, f).norm();
+    for (const Overlay::Piece& piece : both.pieces)
+        expected += piece.source_face * piece.part_of_target * face_vector_area(target.mesh, piece.target_face).norm();
+    EXPECT_NEAR(whole, expected, 1e-9 * expected);
     EXPECT_EQ(test::cause_of([&] { transferred_vertex_values(map, values.topRows(3)); }), Cause::bad_option);
     EXPECT_EQ(test::cause_of([&] { transferred_texture(map); }), Cause::bad_mesh);
     // Places that swap two vertices flip faces.
@@ -141,6 +182,31 @@ TEST(SurfaceCorrespondence, ComesBackToWhereItBegan) {
     EXPECT_EQ(test::cause_of(
                   [&] { SurfaceCorrespondence(source.mesh, target.mesh, found.target_sphere.positions, swapped); }),
               Cause::bad_mesh);
+}
+
+TEST(Overlay, OfSurfacesWithoutCommonVerticesIsASphere) {
+    const Surface source(bumpy(2, 0)), target(bumpy(3, 1));
+    const SphereRegistration found = register_spheres(source, target, {});
+    const Overlay both =
+        overlay(SurfaceCorrespondence(source.mesh, target.mesh, found.target_sphere.positions, found.places));
+    std::set<std::array<int, 2>> sides;
+    for (const Overlay::Piece& piece : both.pieces)
+        for (std::size_t i = 0; i < piece.corners.size(); ++i) {
+            const int a = piece.corners[i], b = piece.corners[(i + 1) % piece.corners.size()];
+            sides.insert({std::min(a, b), std::max(a, b)});
+        }
+    EXPECT_EQ(both.corners.size() + both.pieces.size(), sides.size() + 2);
+    EXPECT_GT(both.pieces.size(), 2U * static_cast<std::size_t>(target.mesh.face_count()));
+    // Corners are the same points on both.
+    const SurfaceCorrespondence map(source.mesh, target.mesh, found.target_sphere.positions, found.places);
+    std::vector<MeshPoint> here, there;
+    for (const Overlay::Corner& corner : both.corners) {
+        here.push_back(corner.on_source);
+        there.push_back(corner.on_target);
+    }
+    EXPECT_LT(
+        (positions_on(target.mesh, map.forward(here)) - positions_on(target.mesh, there)).rowwise().norm().maxCoeff(),
+        1e-9);
 }
 
 }  // namespace

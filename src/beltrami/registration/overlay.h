@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include <beltrami/base/public.h>
+#include <beltrami/registration/transfer.h>
+
+namespace beltrami BELTRAMI_PUBLIC {
+
+/// The faces of two surfaces laid over each other by a map: convex pieces, each in one face of both, whose sides are
+/// straight in both.
+struct Overlay {
+    /// A corner of pieces: a vertex of one of the surfaces or a point where edges of both cross.
+    struct Corner {
+        MeshPoint on_source, on_target;
+    };
+    struct Piece {
+        int source_face, target_face;
+        std::vector<int> corners;               ///< counter-clockwise
+        double part_of_source, part_of_target;  ///< of the areas of its triangles
+        std::array<int, 3> source_triangle, target_triangle;
+    };
+    std::vector<Corner> corners;
+    std::vector<Piece> pieces;
+};
+
+/// The common refinement of both surfaces: where values that jump at edges of the one are wanted on the other.
+Overlay overlay(const SurfaceCorrespondence& map);
+
+}  // namespace beltrami

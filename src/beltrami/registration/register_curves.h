@@ -1,0 +1,53 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <beltrami/curves/surface_curve.h>
+#include <beltrami/flow/surface_flow.h>
+#include <beltrami/registration/carried_surface.h>
+#include <beltrami/registration/surface_landmarks.h>
+#include <beltrami/uniformize/sphere_map.h>
+
+namespace beltrami BELTRAMI_PUBLIC {
+
+/// A curve on one surface and the one of another to which it goes. Given points of both belong together in order,
+/// equally many of them.
+struct CurvePair {
+    CurveThrough source, target;
+    /// The curve slides along its partner, its ends stay at those of the partner; else every point stays where its part
+    /// of the arc between given points puts it.
+    bool slides = true;
+};
+
+struct CurveRegistrationOptions {
+    double p = 2;  ///< of the Lᵖ norm, see least_lp_map()
+    SphereMapOptions sphere;
+    SurfaceFlowOptions flow;
+    /// Places on the target of every vertex of the source, to start from.
+    std::vector<MeshPoint> start = {};
+};
+
+/// A closed surface of genus 0 carried onto another one by the map of least Lᵖ norm.
+struct LpRegistration : CarriedSurface {
+    SphereMap target_sphere;
+    MeshWithCurves source;           ///< the source with its curves along edges, whose map is found
+    SurfaceFlowMap map;              ///< of that to the target's sphere
+    MapResult carried;               ///< |μ| of the source's own faces, on the sphere
+    std::vector<int> start_flipped;  ///< faces that the start had flipped
+    double curve_distance = 0;       ///< largest distance of a vertex of a curve from its partner, in space
+    Warnings warnings;
+};
+
+/// The map between two closed surfaces of genus 0 of least Σ A ψ^{p/2}, ψ = |μ|²/(1 − |μ|²), that takes curves to
+/// curves and landmarks to their places, by way of the target's conformal sphere (least_lp_map). Curves run through
+/// given points along geodesics (mesh_with_curves). The start is that of the landmarks (extremal_sphere_map), with
+/// curves a map of the surfaces cut along them (curve_start.h), with landmarks besides put to their places.
+/// @param landmarks to be met: none is soft
+/// @throw Error bad_mesh; bad_boundary (curves, landmarks, starts that fold and cannot be unfolded); bad_option;
+///        not_solved, cancelled
+LpRegistration register_least_lp(const Surface& source, const Surface& target,
+                                 std::span<const SurfaceLandmark> landmarks, std::span<const CurvePair> curves,
+                                 const CurveRegistrationOptions& options = {});
+
+}  // namespace beltrami

@@ -1,0 +1,126 @@
+#include <beltrami/registration/register_curves.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+
+#include <beltrami/base/error.h>
+#include <beltrami/generate/sphere.h>
+#include <beltrami/registration/curve_start.h>
+
+#include "support/cause_of.h"
+
+namespace beltrami {
+namespace {
+
+Mesh bumpy(int levels, double phase) {
+    Mesh mesh = icosahedral_sphere(levels);
+    for (int v = 0; v < mesh.vertex_count(); ++v) {
+        const Eigen::Vector3d p = mesh.point(v);
+        mesh.positions.row(v) *= 1 + 0.2 * std::sin(3 * p.x() + phase) + 0.1 * p.y();
+    }
+    return mesh;
+}
+
+/// Through the vertices of a mesh of the sphere that are nearest to some directions, turned around the z-axis.
+CurveThrough curve_through(const Mesh& mesh, const std::vector<Eigen::Vector3d>& directions, double turn, bool closed) {
+    CurveThrough curve{{}, closed};
+    for (const Eigen::Vector3d& direction : directions) {
+        const Eigen::Vector3d to = Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()) * direction.normalized();
+        int best = 0;
+        for (int v = 1; v < mesh.vertex_count(); ++v)
+            if (mesh.point(v).normalized().dot(to) > mesh.point(best).normalized().dot(to)) best = v;
+        curve.points.push_back(place_of_vertex(mesh, best));
+    }
+    return curve;
+}
+
+const std::vector<Eigen::Vector3d> kArc{{1, 0, .1}, {.5, .8, .3}, {-.4, .9, .2}},
+    kRing{{1, 0, -.5}, {0, 1, -.5}, {-1, 0, -.5}, {0, -1, -.5}};
+
+TEST(RegisterLeastLp, CurvesSlideOrStay) {
+    const Surface source(bumpy(3, 0)), target(bumpy(3, 1));
+    double energies[2];
+    for (const bool slides : {true, false}) {
+        const std::array pairs{
+            CurvePair{curve_through(source.mesh, kArc, 0, false), curve_through(target.mesh, kArc, 0.2, false), slides},
+            CurvePair{curve_through(source.mesh, kRing, 0, true), curve_through(target.mesh, kRing, -0.1, true),
+                      slides}};
+        const LpRegistration found = register_least_lp(source, target, {}, pairs);
+        EXPECT_TRUE(found.map.distortion.flipped.empty());
+        EXPECT_LT(found.curve_distance, 2e-3);  // edges of 0.15
+        energies[slides ? 0 : 1] = found.map.history.back().energy;
+        // Ends of the arc go to ends, and every given point of a curve that stays to its partner.
+        for (std::size_t i = 0; i < kArc.size(); ++i) {
+            if (slides && i == 1) continue;
+            const int from = pairs[0].source.points[i].vertices[0], to = pairs[0].target.points[i].vertices[0];
+            EXPECT_LT((found.positions.row(from).transpose() - target.mesh.point(to)).norm(), 1e-9);
+        }
+    }
+    EXPECT_LT(energies[0], energies[1]);
+}
+
+TEST(RegisterLeastLp, WithoutCurvesMeetsLandmarks) {
+    const Surface source(bumpy(3, 0)), target(bumpy(3, 1));
+    std::vector<SurfaceLandmark> landmarks;
+    for (const int v : {0, 1, 2, 3, 7}) landmarks.push_back({v, place_of_vertex(target.mesh, v)});
+    double last = 0;
+    for (const double p : {2.0, 6.0}) {
+        CurveRegistrationOptions options;
+        options.p = p;
+        const LpRegistration found = register_least_lp(source, target, landmarks, {}, options);
+        EXPECT_TRUE(found.carried.one_to_one());
+        for (const int v : {0, 1, 2, 3, 7})
+            EXPECT_LT((found.positions.row(v).transpose() - target.mesh.point(v)).norm(), 1e-12);
+        if (last > 0) {
+            EXPECT_LT(found.carried.distortion.max, last);
+        }
+        last = found.carried.distortion.max;
+    }
+}
+
+TEST(MapCutAlongCurves, PartsOfASphereWithOneCurveAreNotFolded) {
+    const Mesh here = bumpy(3, 0), there = bumpy(4, 1);
+    for (const bool closed : {false, true}) {
+        const auto& points = closed ? kRing : kArc;
+        const MeshWithCurves source = mesh_with_curves(here, std::array{curve_through(here, points, 0, closed)}),
+                             target = mesh_with_curves(there, std::array{curve_through(there, points, 1.5, closed)});
+        const std::vector<MeshPoint> places = map_cut_along_curves(source, target);
+        EXPECT_EQ(static_cast<int>(places.size()), source.mesh.vertex_count());
+        const auto& chain = source.curves[0];
+        for (std::size_t i = 0; i < chain.given.size(); ++i) {
+            const MeshPoint& place = places[chain.vertices[chain.given[i]]];
+            Eigen::Vector3d point = Eigen::Vector3d::Zero();
+            for (int j = 0; j < 3; ++j) point += place.barycentric[j] * target.mesh.point(place.vertices[j]);
+            const int partner = target.curves[0].vertices[target.curves[0].given[i]];
+            EXPECT_LT((point - target.mesh.point(partner)).norm(), 1e-9);
+        }
+    }
+}
+
+TEST(RegisterLeastLp, RefusesWhatCannotBe) {
+    const Surface source(bumpy(2, 0)), target(bumpy(2, 1));
+    const CurveThrough arc = curve_through(source.mesh, kArc, 0, false),
+                       ring = curve_through(target.mesh, kRing, 0, true);
+    const auto cause = [&](const std::vector<SurfaceLandmark>& landmarks, const std::vector<CurvePair>& curves) {
+        return test::cause_of([&] { register_least_lp(source, target, landmarks, curves); });
+    };
+    EXPECT_EQ(cause({}, {{arc, ring, true}}), Cause::bad_boundary);
+    EXPECT_EQ(
+        cause({{arc.points[0].vertices[0], arc.points[0]}}, {{arc, curve_through(target.mesh, kArc, 0, false), true}}),
+        Cause::bad_boundary);
+    EXPECT_EQ(cause({{0, place_of_vertex(target.mesh, 0), 3.0}}, {}), Cause::bad_option);
+    CurveThrough backwards = ring;
+    std::reverse(backwards.points.begin(), backwards.points.end());
+    const CurveThrough second = curve_through(source.mesh, kArc, 0, false),
+                       moved = curve_through(target.mesh, {{1, 0, -.9}, {0, 1, -.9}, {-1, 0, -.9}}, 0, false);
+    // The arc is on one side of the ring here, and on the other side there.
+    EXPECT_EQ(cause({}, {{curve_through(source.mesh, kRing, 0, true), ring, true}, {second, moved, true}}),
+              Cause::bad_boundary);
+}
+
+}  // namespace
+}  // namespace beltrami
