@@ -57,6 +57,11 @@ void GraphLaplacian::shift_diagonal(double value) {
     for (int u = 0; u < unknown_count(); ++u) system_.add_to_diagonal(u, value);
 }
 
+void GraphLaplacian::add_to_diagonal(const Eigen::VectorXd& values) {
+    for (Eigen::Index v = 0; v < values.size(); ++v)
+        if (unknown_[v] >= 0) system_.add_to_diagonal(unknown_[v], values[v]);
+}
+
 template <class Act>
 void GraphLaplacian::each_link(Act&& act) const {
     for (std::size_t e = 0; e < edges_.size(); ++e) {

@@ -29,6 +29,8 @@ class GraphLaplacian {
     double mean_diagonal() const;
     /// Adds to the whole diagonal; then factorize().
     void shift_diagonal(double value);
+    /// Adds to the diagonal at every vertex that is not held (#V); then factorize().
+    void add_to_diagonal(const Eigen::VectorXd& values);
     /// @throw Error not_solved as ElementSystem::factorize
     void factorize() { system_.factorize(); }
 

@@ -4,7 +4,7 @@
 #include <span>
 
 #include <beltrami/base/public.h>
-#include <beltrami/registration/carried_surface.h>
+#include <beltrami/teichmuller/carried_surface.h>
 #include <beltrami/registration/surface_landmarks.h>
 #include <beltrami/teichmuller/extremal_map.h>
 

@@ -5,7 +5,7 @@
 
 #include <beltrami/base/public.h>
 #include <beltrami/locate/planar_locator.h>
-#include <beltrami/registration/carried_surface.h>
+#include <beltrami/teichmuller/carried_surface.h>
 
 namespace beltrami BELTRAMI_PUBLIC {
 

@@ -52,25 +52,6 @@ Positions layout_lattice(const FlatTorus& torus) {
     return result;
 }
 
-void place(const Surface& source, const Surface& target, const FlatTorus& flat_target, const Positions& images,
-           TorusMap& result) {
-    result.places = places_on_torus(flat_target, images);
-    const Positions normals = vertex_normals(target.mesh);
-    Positions at_places(images.rows(), 3);
-    result.positions.resize(images.rows(), 3);
-    for (Eigen::Index v = 0; v < images.rows(); ++v) {
-        const MeshPoint& p = result.places[static_cast<std::size_t>(v)];
-        result.positions.row(v).setZero();
-        at_places.row(v).setZero();
-        for (std::size_t i = 0; i < 3; ++i) {
-            result.positions.row(v) += p.barycentric[i] * target.mesh.point(p.vertices[i]).transpose();
-            at_places.row(v) += p.barycentric[i] * normals.row(p.vertices[i]);
-        }
-        at_places.row(v).normalize();
-    }
-    result.in_space = distortion(source.operators, result.positions, at_places);
-}
-
 }  // namespace
 
 TorusMap torus_map(const Surface& source, const FlatTorus& flat_source, const Surface& target,
@@ -98,7 +79,8 @@ TorusMap torus_map(const Surface& source, const FlatTorus& flat_source, const Su
     result.map = in_plane(images, flat_target.tau);
     result.distortion = distortion(per_corner(source.operators, source.mesh.faces),
                                    in_plane(map(layout_lattice(flat_source)), flat_target.tau));
-    place(source, target, flat_target, images, result);
+    result.places = places_on_torus(flat_target, images);
+    result.measure(source, target, result.distortion.mu);
     result.factorizations = flat_source.factorizations + flat_target.factorizations;
     warn_of_folds_and_limit({}, result);
     return result;

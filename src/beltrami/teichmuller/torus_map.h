@@ -8,6 +8,7 @@
 #include <beltrami/base/public.h>
 #include <beltrami/forms/flat_torus.h>
 #include <beltrami/solve/map_result.h>
+#include <beltrami/teichmuller/carried_surface.h>
 #include <beltrami/teichmuller/distance.h>
 
 namespace beltrami BELTRAMI_PUBLIC {
@@ -17,16 +18,13 @@ namespace beltrami BELTRAMI_PUBLIC {
 /// The base's map has the images of the vertices in the flat coordinate of the target, lifted as FlatTorus::lattice of
 /// the source; its distortion is that of the source's own faces onto the flat target, whose error falls with the length
 /// of the edges, while K and mu are those of the affine map.
-struct TorusMap : MapResult {
+struct TorusMap : MapResult, CarriedSurface {
     double K = 1, k = 0;
     /// For the two polyhedra K* of the class lies between these, up to rounding (FlatTorus::tau_error).
     double K_lower = 1, K_upper = 1;
     Complex mu;            ///< constant, in the flat coordinate of the source; φ is conj(mu) dz², up to a factor > 0
     TorusMarking marking;  ///< where the generators of the source go, in those of the target
     Complex target_tau;    ///< of the target in the images of the source's generators
-    std::vector<MeshPoint> places;  ///< #V, on the faces of the target
-    Positions positions;            ///< #V×3, of these places
-    Distortion in_space;  ///< of the source's faces onto the triangles between the positions, oriented by the target
 };
 
 /// What a map between tori is asked for.

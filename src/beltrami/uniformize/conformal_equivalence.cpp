@@ -35,7 +35,7 @@ struct State {
         degenerate.clear();
         for (int t = 0; t < triangulation.triangle_count(); ++t) {
             if (!surface.is_finite(t)) continue;
-            const TriangleAngles triangle = triangulation.angles(t, u);
+            const TriangleAngles triangle = surface.angles(t, u);
             if (triangle.degenerate) degenerate.push_back(t);
             for (int k = 0; k < 3; ++k) {
                 const int h = 3 * t + k;
@@ -76,15 +76,23 @@ class Hessian {
 
     /// @param free which vertices are, read where the pattern is rebuilt
     /// @return −H⁻¹ defect at the free vertices, 0 elsewhere
-    Eigen::VectorXd step(const IntrinsicTriangulation& triangulation, const std::vector<char>& free,
-                         const State& state) {
+    Eigen::VectorXd step(const ScaledSurface& surface, const std::vector<char>& free, const State& state,
+                         const Eigen::VectorXd& u) {
+        const IntrinsicTriangulation& triangulation = surface.triangulation();
         if (!laplacian_) build_pattern(triangulation, free);
         weights_.resize(edges_.size());
+        Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(u.size());
         for (std::size_t e = 0; e < edges_.size(); ++e) {
-            const int twin = triangulation.twin(edges_[e]);
-            weights_[e] = 0.5 * (state.cotangents[edges_[e]] + (twin >= 0 ? state.cotangents[twin] : 0.0));
+            const int h = edges_[e], twin = triangulation.twin(h);
+            const double weight = 0.5 * (state.cotangents[h] + (twin >= 0 ? state.cotangents[twin] : 0.0));
+            // w ((x − y)² + c (x + y)²) = w (1 − c) (x − y)² + 2 w c (x² + y²)
+            const double share = surface.scale_share(h, u);
+            weights_[e] = (1 - share) * weight;
+            diagonal[triangulation.tail(h)] += 2 * share * weight;
+            diagonal[triangulation.head(h)] += 2 * share * weight;
         }
         laplacian_->set(weights_);
+        laplacian_->add_to_diagonal(diagonal);
         return solve(-state.defect);
     }
 
@@ -162,7 +170,7 @@ ScaleFactors solve_scale_factors(ScaledSurface& surface, const ScaleFactorProble
         }
         if (result.iterations == problem.max_iterations) break;
 
-        const Eigen::VectorXd direction = hessian.step(surface.triangulation(), free, state);
+        const Eigen::VectorXd direction = hessian.step(surface, free, state, u);
         const double slope = state.defect.dot(direction);
         const bool rounding = state.residual < kRoundingLevel && released == 0;
         // The energy is convex, so a slope that is still negative means descent; its value is never needed.

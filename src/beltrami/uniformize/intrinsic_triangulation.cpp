@@ -100,8 +100,8 @@ std::vector<EdgeFlip> IntrinsicTriangulation::delaunay_flips() {
     return flip_to_delaunay<Rule::unfold>(Eigen::VectorXd::Zero(vertex_count_));
 }
 
-int IntrinsicTriangulation::make_delaunay(const Eigen::VectorXd& u) {
-    return static_cast<int>(flip_to_delaunay<Rule::ptolemy>(u).size());
+std::vector<EdgeFlip> IntrinsicTriangulation::delaunay_flips(const Eigen::VectorXd& u) {
+    return flip_to_delaunay<Rule::ptolemy>(u);
 }
 
 template <IntrinsicTriangulation::Rule rule>

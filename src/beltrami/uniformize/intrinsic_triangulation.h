@@ -78,7 +78,9 @@ class IntrinsicTriangulation {
     /// scaling, so that the discrete conformal class stays what it is. Lengths need not satisfy the triangle
     /// inequality. Source: Springborn 2020, "Ideal hyperbolic polyhedra and discrete uniformization"; Gillespie,
     /// Springborn, Crane 2021, "Discrete conformal equivalence of polyhedral surfaces". @return the number of flips
-    int make_delaunay(const Eigen::VectorXd& u);
+    int make_delaunay(const Eigen::VectorXd& u) { return static_cast<int>(delaunay_flips(u).size()); }
+    /// The same, every flip in its order.
+    std::vector<EdgeFlip> delaunay_flips(const Eigen::VectorXd& u);
 
     /// The logarithm of the length that an edge has after a flip, by Ptolemy's relation.
     /// @pre two different triangles meet there

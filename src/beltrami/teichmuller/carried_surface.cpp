@@ -1,4 +1,4 @@
-#include <beltrami/registration/carried_surface.h>
+#include <beltrami/teichmuller/carried_surface.h>
 
 #include <algorithm>
 #include <cmath>

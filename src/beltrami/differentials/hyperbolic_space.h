@@ -1,0 +1,23 @@
+#pragma once
+
+#include <beltrami/differentials/tabulated_space.h>
+#include <beltrami/hyperbolic/hyperbolic_surface.h>
+
+namespace beltrami {
+
+/// The holomorphic quadratic differentials of a closed surface of genus g ≥ 2, and how they were told from others.
+struct HyperbolicSpace {
+    TabulatedSpace space;    ///< 3g − 3 functions, orthonormal in L² of the surface; complex coefficients
+    Eigen::VectorXd kernel;  ///< 3g − 3 eigenvalues of ∂̄*∂̄, 0 but for the mesh
+    double next = 0;         ///< the next one, ½ but for the mesh
+    int solves = 0;          ///< linear solves, after one factorisation
+};
+
+/// The kernel of ∂̄ on sections of K² at the vertices, in the surface's own metric of curvature −1, where ∂̄*∂̄ has no
+/// eigenvalue between 0 and ½: with charts centred on the faces q_k is carried from a vertex frame by conj(a_k)⁴, and
+/// the lowest eigenvectors of Dᴴ A D x = λ M x are found by inverse iteration of a subspace.
+/// @param source of triangles; @param metric of it
+/// @throw Error bad_mesh for faces that are not triangles; not_solved if not 3g − 3 eigenvalues are below ¼
+HyperbolicSpace hyperbolic_space(const Surface& source, const HyperbolicSurface& metric);
+
+}  // namespace beltrami

@@ -1,0 +1,150 @@
+#include <beltrami/hyperbolic/hyperbolic_places.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include <Eigen/LU>
+
+#include <beltrami/base/error.h>
+#include <beltrami/base/parallel.h>
+#include <beltrami/uniformize/edge_flips.h>
+
+namespace beltrami {
+
+namespace {
+
+constexpr double kOnEdge = 1e-13;
+constexpr int kLongestWalk = 1000000;
+
+int next(int h) {
+    return IntrinsicTriangulation::next(h);
+}
+int previous(int h) {
+    return IntrinsicTriangulation::previous(h);
+}
+
+std::vector<int> first_halfedges(const IntrinsicTriangulation& triangulation) {
+    std::vector<int> result(static_cast<std::size_t>(triangulation.vertex_count()), -1);
+    for (int h = triangulation.halfedge_count() - 1; h >= 0; --h) result[triangulation.tail(h)] = h;
+    return result;
+}
+
+/// Walks to the triangle of the Delaunay triangulation that contains a point.
+/// @param p seen from the frame of the tail of h
+/// @return projective weights of the corners; no triangle if the walk does not end
+IntrinsicPoint walk(const HyperbolicSurface& surface, int h, Complex p) {
+    std::array<double, 3> weights{};
+    int inside = 0;
+    for (int i = 0; i < kLongestWalk && inside < 3; ++i) {
+        const DiskIsometry& step = surface.delaunay_steps[static_cast<std::size_t>(h)];
+        const Complex head = step.place();
+        const double side = std::imag(std::conj(head) * p);
+        const bool crosses = side < -kOnEdge;
+        // Proportional to det(p, tail, head) on the hyperboloid: the weight of the corner opposite.
+        weights[static_cast<std::size_t>(previous(h) % 3)] =
+            std::max(0.0, side / ((1 - std::norm(head)) * (1 - std::norm(p))));
+        p = step.inverse()(p);
+        inside = crosses ? 0 : inside + 1;
+        h = crosses ? surface.delaunay.twin(h) : next(h);
+    }
+    if (inside < 3) return {};
+    return {h / 3, weights};
+}
+
+/// The quadrilateral i l j k of an edge i→j that has become l→k, as vectors of the light cone whose products are the
+/// squares of the lengths: l = α i + β j + γ k, γ < 0.
+struct LightCone {
+    double alpha, beta, gamma;
+
+    LightCone(const IntrinsicTriangulation& flipped, const EdgeFlip& flip) {
+        const int h = flip.halfedge, g = flip.twin;
+        const double unit = flip.log_length;
+        const auto square = [&](int halfedge) { return std::exp(2 * (flipped.log_length(halfedge) - unit)); };
+        const double ki = square(next(h)), il = square(previous(h)), lj = square(next(g)), jk = square(previous(g));
+        Eigen::Matrix3d products;
+        products << 0, 1, ki, 1, 0, jk, ki, jk, 0;
+        const Eigen::Vector3d combination = products.inverse() * Eigen::Vector3d(il, lj, square(h));
+        alpha = combination[0];
+        beta = combination[1];
+        gamma = combination[2];
+    }
+};
+
+/// Points in the triangulation before flips by Ptolemy's relation.
+std::vector<IntrinsicPoint> before_ptolemy(IntrinsicTriangulation flipped, const std::vector<EdgeFlip>& flips,
+                                           std::vector<IntrinsicPoint> points) {
+    std::vector<std::vector<int>> inside(static_cast<std::size_t>(flipped.triangle_count()));
+    for (std::size_t p = 0; p < points.size(); ++p) inside[points[p].triangle].push_back(static_cast<int>(p));
+    for (auto last = flips.rbegin(); last != flips.rend(); ++last) {
+        const int h = last->halfedge, g = last->twin;
+        const std::vector<int> of_h = std::exchange(inside[h / 3], {}), of_g = std::exchange(inside[g / 3], {});
+        if (!of_h.empty() || !of_g.empty()) {
+            const LightCone l(flipped, *last);
+            const auto weight = [&](int p, int halfedge) { return points[p].weights[halfedge % 3]; };
+            const auto put = [&](int p, double of_i, double of_j, double of_k, double of_l) {
+                const bool left = of_k + l.gamma * of_l >= 0;
+                const int first = left ? h : g;
+                std::array<double, 3> w{};
+                if (left)
+                    w = {of_i + l.alpha * of_l, of_j + l.beta * of_l, of_k + l.gamma * of_l};
+                else  // j, i, l
+                    w = {of_j - of_k * l.beta / l.gamma, of_i - of_k * l.alpha / l.gamma, of_l + of_k / l.gamma};
+                points[p].triangle = first / 3;
+                const double sum = w[0] + w[1] + w[2];
+                for (int c = 0; c < 3; ++c) points[p].weights[(first % 3 + c) % 3] = std::max(0.0, w[c]) / sum;
+                inside[first / 3].push_back(p);
+            };
+            for (const int p : of_h) put(p, weight(p, previous(h)), 0, weight(p, next(h)), weight(p, h));
+            for (const int p : of_g) put(p, 0, weight(p, previous(g)), weight(p, g), weight(p, next(g)));
+        }
+        flipped.undo(*last);
+    }
+    return points;
+}
+
+}  // namespace
+
+std::vector<MeshPoint> places_of(const HyperbolicSurface& target, const EquivariantMap& map) {
+    const auto count = static_cast<int>(map.bases.size());
+    const std::vector<int> first = first_halfedges(target.delaunay);
+    std::vector<IntrinsicPoint> points(static_cast<std::size_t>(count));
+    parallel_for(0, count, [&](int begin, int end) {
+        for (int v = begin; v < end; ++v) points[v] = walk(target, first[map.bases[v]], map.frames[v].place());
+    });
+    std::vector<int> lost;
+    for (int v = 0; v < count; ++v) {
+        if (points[v].triangle < 0) {
+            lost.push_back(v);
+            continue;
+        }
+        // In the circumcircle preserving projective map a corner weighs e^u times as much.
+        const int h = 3 * points[v].triangle;
+        double largest = target.log_scale[target.delaunay.tail(h)], sum = 0;
+        for (int k = 1; k < 3; ++k) largest = std::max(largest, target.log_scale[target.delaunay.tail(h + k)]);
+        for (int k = 0; k < 3; ++k)
+            sum += points[v].weights[k] *= std::exp(target.log_scale[target.delaunay.tail(h + k)] - largest);
+        for (double& weight : points[v].weights) weight /= sum;
+    }
+    if (!lost.empty()) {
+        const std::string count = std::to_string(lost.size());
+        throw Error(Cause::not_solved, count + " vertices are not found on the target",
+                    "remesh the target: its triangles are too thin for double precision",
+                    {Things::vertices, std::move(lost)});
+    }
+    points = before_ptolemy(target.delaunay, target.ptolemy, std::move(points));
+    IntrinsicTriangulation unfolded = target.delaunay;
+    for (auto flip = target.ptolemy.rbegin(); flip != target.ptolemy.rend(); ++flip) unfolded.undo(*flip);
+    points = before_flips(std::move(unfolded), target.unfolded, std::move(points));
+    std::vector<MeshPoint> places;
+    places.reserve(points.size());
+    for (const IntrinsicPoint& point : points) {
+        const auto v = target.metric.triangles[point.triangle];
+        places.push_back({target.metric.faces[point.triangle], {v[0], v[1], v[2]}, point.weights});
+    }
+    return places;
+}
+
+}  // namespace beltrami

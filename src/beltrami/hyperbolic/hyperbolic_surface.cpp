@@ -1,0 +1,235 @@
+#include <beltrami/hyperbolic/hyperbolic_surface.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include <beltrami/base/error.h>
+#include <beltrami/uniformize/conformal_equivalence.h>
+
+namespace beltrami {
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kTolerance = 1e-11;  // of angle sums, radians
+constexpr double kTornFlatness = 1e-6;
+
+/// Lengths from the logarithms of chords 2 sinh(L/2).
+std::array<double, 3> lengths_of_chords(const std::array<double, 3>& log_chords) {
+    std::array<double, 3> lengths{};
+    for (std::size_t k = 0; k < 3; ++k) lengths[k] = 2 * std::asinh(0.5 * std::exp(log_chords[k]));
+    return lengths;
+}
+
+/// Angles by half-angle formulas; for the cotangents stand tan((α_i + α_j − α_k)/2), which are the cotangents of half
+/// the central angles of the circumcircle, as in the plane.
+TriangleAngles hyperbolic_angles(const std::array<double, 3>& log_chords) {
+    const std::array<double, 3> lengths = lengths_of_chords(log_chords);
+    const double half = 0.5 * (lengths[0] + lengths[1] + lengths[2]);
+    std::array<double, 3> sines{};
+    TriangleAngles result{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (half - lengths[k] <= 0) {
+            result.angles[k] = kPi;
+            result.degenerate = true;
+            return result;
+        }
+        sines[k] = std::sinh(half - lengths[k]);
+    }
+    const double of_half = std::sinh(half);
+    for (std::size_t k = 0; k < 3; ++k)
+        result.angles[k] =
+            2 * std::atan2(std::sqrt(sines[(k + 1) % 3] * sines[(k + 2) % 3]), std::sqrt(of_half * sines[k]));
+    for (std::size_t k = 0; k < 3; ++k)
+        result.cotangents[k] =
+            std::tan(0.5 * (result.angles[(k + 1) % 3] + result.angles[(k + 2) % 3] - result.angles[k]));
+    return result;
+}
+
+/// A triangulation whose scaled lengths are chords 2 sinh(L/2) of the hyperboloid. With these Penner's condition, by
+/// which edges are flipped, says that hyperbolic circumcircles are empty, and Ptolemy's relation holds as in the plane.
+class ChordSurface final : public ScaledSurface {
+  public:
+    explicit ChordSurface(IntrinsicTriangulation triangulation) : triangulation_(std::move(triangulation)) {}
+
+    const IntrinsicTriangulation& triangulation() const override { return triangulation_; }
+    const std::vector<EdgeFlip>& flips() const { return flips_; }
+    int make_delaunay(Eigen::VectorXd& u) override {
+        const std::vector<EdgeFlip> flips = triangulation_.delaunay_flips(u);
+        flips_.insert(flips_.end(), flips.begin(), flips.end());
+        return static_cast<int>(flips.size());
+    }
+    TriangleAngles angles(int triangle, const Eigen::VectorXd& u) const override {
+        return hyperbolic_angles(triangulation_.log_lengths(triangle, u));
+    }
+    double scale_share(int halfedge, const Eigen::VectorXd& u) const override {
+        // tanh(L/2)² of the chord 2 sinh(L/2)
+        const double square = 0.25 * std::exp(2 * triangulation_.log_length(halfedge, u));
+        return square / (1 + square);
+    }
+
+  private:
+    IntrinsicTriangulation triangulation_;
+    std::vector<EdgeFlip> flips_;
+};
+
+void require_hyperbolic(const Topology& t) {
+    if (t.components != 1)
+        throw Error(Cause::bad_mesh, "the surface has " + std::to_string(t.components) + " components",
+                    "take one component at a time");
+    if (!t.boundary_loops.empty())
+        throw Error(Cause::bad_mesh, "the surface has a boundary, and is not closed", "fill its holes");
+    if (t.genus < 2)
+        throw Error(Cause::bad_mesh,
+                    "the surface has genus " + std::to_string(t.genus) + ", and no metric of curvature -1",
+                    "take one of genus 2 or more");
+}
+
+double flat_area(const IntrinsicTriangulation& triangulation) {
+    double area = 0;
+    for (int h = 0; h < triangulation.halfedge_count(); h += 3) {
+        const std::array<double, 3> logs{triangulation.log_length(h), triangulation.log_length(h + 1),
+                                         triangulation.log_length(h + 2)};
+        area += 0.5 * std::exp(logs[1] + logs[2]) * std::sin(triangle_angles(logs).angles[0]);
+    }
+    return area;
+}
+
+ScaleFactorProblem problem_of(const IntrinsicTriangulation& triangulation) {
+    ScaleFactorProblem problem;
+    problem.tolerance = kTolerance;
+    problem.stop_when_degenerate = false;
+    const int n = triangulation.vertex_count();
+    problem.free.assign(static_cast<std::size_t>(n), 0);
+    problem.target_angles = Eigen::VectorXd::Constant(n, std::numeric_limits<double>::quiet_NaN());
+    for (int h = 0; h < triangulation.halfedge_count(); ++h) {
+        problem.free[static_cast<std::size_t>(triangulation.tail(h))] = 1;
+        problem.target_angles[triangulation.tail(h)] = 2 * kPi;
+    }
+    return problem;
+}
+
+/// The direction of every half-edge in the frame of its tail: the first one's is 0, the others follow by the angles
+/// between them, counter-clockwise.
+std::vector<double> directions(const ChordSurface& surface, const Eigen::VectorXd& u) {
+    const IntrinsicTriangulation& triangulation = surface.triangulation();
+    std::vector<double> at_tail(static_cast<std::size_t>(triangulation.halfedge_count()));
+    for (int t = 0; t < triangulation.triangle_count(); ++t) {
+        const TriangleAngles triangle = surface.angles(t, u);
+        for (int k = 0; k < 3; ++k) at_tail[3 * t + k] = triangle.angles[(k + 1) % 3];
+    }
+    std::vector<double> result(at_tail.size(), std::numeric_limits<double>::quiet_NaN());
+    for (int first = 0; first < triangulation.halfedge_count(); ++first) {
+        if (!std::isnan(result[first])) continue;
+        double angle = 0;
+        int h = first;
+        do {
+            result[h] = angle;
+            angle += at_tail[h];
+            h = triangulation.twin(IntrinsicTriangulation::previous(h));
+        } while (h != first);
+    }
+    return result;
+}
+
+std::vector<DiskIsometry> steps_of(const ChordSurface& surface, const Eigen::VectorXd& u) {
+    const IntrinsicTriangulation& triangulation = surface.triangulation();
+    const std::vector<double> direction = directions(surface, u);
+    std::vector<DiskIsometry> steps(direction.size());
+    for (int h = 0; h < triangulation.halfedge_count(); ++h) {
+        const double length = 2 * std::asinh(0.5 * std::exp(triangulation.log_length(h, u)));
+        steps[h] = DiskIsometry::rotation(direction[h]) * DiskIsometry::translation(length) *
+                   DiskIsometry::rotation(kPi - direction[triangulation.twin(h)]);
+    }
+    return steps;
+}
+
+/// Steps of a triangulation as they were before its flips: what was a side of the quadrilateral moves back, and the
+/// edge that was flipped has the way around the other one.
+void steps_before(const std::vector<EdgeFlip>& flips, std::vector<DiskIsometry>& steps) {
+    for (auto flip = flips.rbegin(); flip != flips.rend(); ++flip) {
+        const int h = flip->halfedge, g = flip->twin;
+        const int h1 = IntrinsicTriangulation::next(h), h2 = IntrinsicTriangulation::previous(h);
+        const int g1 = IntrinsicTriangulation::next(g), g2 = IntrinsicTriangulation::previous(g);
+        const DiskIsometry ki = steps[h1], il = steps[h2], lj = steps[g1], jk = steps[g2];
+        steps[h1] = jk;
+        steps[h2] = ki;
+        steps[g1] = il;
+        steps[g2] = lj;
+        steps[h] = (il * lj).normalized();
+        steps[g] = steps[h].inverse();
+    }
+}
+
+/// Flatness, and the triangles that the flips have left the wrong way round.
+void inspect(HyperbolicSurface& surface) {
+    for (int t = 0; t < surface.original.triangle_count(); ++t) {
+        const DiskIsometry &ij = surface.step(3 * t), &jk = surface.step(3 * t + 1), &ki = surface.step(3 * t + 2);
+        surface.flatness = std::max(surface.flatness, (ij * jk * ki).from_identity());
+        const double side = std::imag(std::conj(ij.place()) * ki.inverse().place());
+        const int face = surface.metric.faces[static_cast<std::size_t>(t)];
+        if (!(side > 0) && (surface.inverted.empty() || surface.inverted.back() != face))
+            surface.inverted.push_back(face);
+    }
+}
+
+}  // namespace
+
+double HyperbolicSurface::area() const {
+    double area = 0;
+    for (int t = 0; t < delaunay.triangle_count(); ++t) {
+        const TriangleAngles triangle = hyperbolic_angles(delaunay.log_lengths(t, log_scale));
+        area += kPi - triangle.angles[0] - triangle.angles[1] - triangle.angles[2];
+    }
+    return area;
+}
+
+HyperbolicSurface hyperbolic_surface(const Surface& surface) {
+    require_hyperbolic(surface.topology);
+    TriangleMetric metric = triangle_metric(surface.mesh, surface.topology,
+                                            surface.metric ? *surface.metric : corner_positions(surface.mesh));
+    IntrinsicTriangulation original(metric.triangles, surface.mesh.vertex_count(), metric.log_lengths);
+    IntrinsicTriangulation unfolded = original;
+    std::vector<EdgeFlip> flips = unfolded.delaunay_flips();
+    const int genus = surface.topology.genus;
+    const double area = flat_area(unfolded);
+    const ScaleFactorProblem problem = problem_of(unfolded);
+    ChordSurface chords(std::move(unfolded));
+    // A surface without curvature of its own would have this scale.
+    const double start = 0.5 * std::log(4 * kPi * (genus - 1) / area);
+    const ScaleFactors found =
+        solve_scale_factors(chords, problem, Eigen::VectorXd::Constant(surface.mesh.vertex_count(), start));
+    if (found.status != ScaleFactorStatus::converged && found.status != ScaleFactorStatus::stagnated)
+        throw Error(Cause::not_solved,
+                    "the hyperbolic metric was not found: angles are off by up to " + std::to_string(found.residual),
+                    "remesh the surface, with edges of like length side by side");
+    std::vector<DiskIsometry> delaunay_steps = steps_of(chords, found.u), steps = delaunay_steps;
+    steps_before(chords.flips(), steps);
+    steps_before(flips, steps);
+    HyperbolicSurface result{.metric = std::move(metric),
+                             .original = std::move(original),
+                             .delaunay = chords.triangulation(),
+                             .unfolded = std::move(flips),
+                             .ptolemy = chords.flips(),
+                             .log_scale = found.u,
+                             .steps = std::move(steps),
+                             .delaunay_steps = std::move(delaunay_steps),
+                             .genus = genus,
+                             .iterations = found.iterations,
+                             .factorizations = found.factorizations,
+                             .residual = found.residual,
+                             .flatness = 0,
+                             .inverted = {}};
+    inspect(result);
+    if (!(result.flatness < kTornFlatness))
+        throw Error(Cause::not_solved, "the hyperbolic metric does not hold together along the surface's own edges",
+                    "remesh the surface: its triangles are too thin for double precision");
+    return result;
+}
+
+}  // namespace beltrami

@@ -1,0 +1,354 @@
+#include <beltrami/hyperbolic/marking.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <deque>
+#include <limits>
+#include <queue>
+#include <string>
+#include <utility>
+
+#include <beltrami/base/disjoint_sets.h>
+#include <beltrami/base/error.h>
+#include <beltrami/hyperbolic/fundamental_group.h>
+#include <beltrami/locate/surface_locator.h>
+
+namespace beltrami {
+
+namespace {
+
+constexpr double kFlat = 1e-6;  // nothing is between rounding and a deck transformation
+
+std::string short_number(double x) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2g", x);
+    return text;
+}
+
+/// The edge of a mesh between two vertices, −1 if there is none.
+int edge_between(const Topology& topology, int a, int b) {
+    const std::array<int, 2> ends{std::min(a, b), std::max(a, b)};
+    const auto found = std::lower_bound(topology.edges.begin(), topology.edges.end(), ends);
+    return found == topology.edges.end() || *found != ends ? -1 : static_cast<int>(found - topology.edges.begin());
+}
+
+/// Walks along the edges of the target: steps with homology classes, and shortest paths.
+class TargetEdges {
+  public:
+    explicit TargetEdges(const EdgeGroup& target)
+        : target_(target),
+          from_(static_cast<std::size_t>(target.triangulation.vertex_count())),
+          edges_(static_cast<std::size_t>(target.triangulation.halfedge_count())),
+          distance_(from_.size(), std::numeric_limits<double>::infinity()),
+          arrived_by_(from_.size(), -1) {
+        for (int h = 0; h < target.triangulation.halfedge_count(); ++h) {
+            edges_[h] = edge_between(target.topology, target.triangulation.tail(h), target.triangulation.head(h));
+            if (edges_[h] >= 0) from_[target.triangulation.tail(h)].push_back(h);  // else the diagonal of a quad
+        }
+    }
+
+    int size() const { return target_.homology.size(); }
+    MarkedStep nowhere() const { return {{}, Eigen::RowVectorXi::Zero(size())}; }
+    MarkedStep along(int h) const {
+        const int sign = target_.triangulation.tail(h) < target_.triangulation.head(h) ? 1 : -1;
+        return {target_.steps[static_cast<std::size_t>(h)], sign * target_.homology.cochains.row(edges_[h])};
+    }
+    /// @return −1 if no edge joins the vertices
+    int halfedge(int a, int b) const {
+        for (const int h : from_[a])
+            if (target_.triangulation.head(h) == b) return h;
+        return -1;
+    }
+    /// Along a shortest path of edges.
+    MarkedStep between(int a, int b) {
+        MarkedStep result = nowhere();
+        if (a == b) return result;
+        search(a, b);
+        std::vector<int> path;
+        for (int v = b; v != a; v = target_.triangulation.tail(path.back())) path.push_back(arrived_by_[v]);
+        for (auto h = path.rbegin(); h != path.rend(); ++h) result = result * along(*h);
+        for (const int v : touched_) {
+            distance_[v] = std::numeric_limits<double>::infinity();
+            arrived_by_[v] = -1;
+        }
+        touched_.clear();
+        return result;
+    }
+
+  private:
+    void search(int a, int b) {
+        using Entry = std::pair<double, int>;
+        std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+        distance_[a] = 0;
+        touched_.push_back(a);
+        queue.emplace(0, a);
+        while (!queue.empty()) {
+            const auto [distance, v] = queue.top();
+            queue.pop();
+            if (v == b) return;
+            if (distance > distance_[v]) continue;
+            for (const int h : from_[v]) {
+                const int w = target_.triangulation.head(h);
+                const double longer = distance + std::exp(target_.triangulation.log_length(h));
+                if (!(longer < distance_[w])) continue;
+                if (std::isinf(distance_[w])) touched_.push_back(w);
+                distance_[w] = longer;
+                arrived_by_[w] = h;
+                queue.emplace(longer, w);
+            }
+        }
+    }
+
+    EdgeGroup target_;
+    std::vector<std::vector<int>> from_;
+    std::vector<int> edges_;
+    std::vector<double> distance_;
+    std::vector<int> arrived_by_, touched_;
+};
+
+/// Faces whose images do not close up.
+std::vector<int> faces_not_flat(const Surface& source, const EquivariantMap& map) {
+    const std::vector<MarkedStep> steps = halfedge_steps(source, map);
+    std::vector<int> bad;
+    for (std::size_t f = 0; 3 * f < steps.size(); ++f)
+        if (!(not_closed(steps[3 * f] * steps[3 * f + 1] * steps[3 * f + 2]) < kFlat))
+            bad.push_back(static_cast<int>(f));
+    return bad;
+}
+
+/// How many faces every face is away from some (#F).
+std::vector<int> distances_from(const IntrinsicTriangulation& triangulation, const std::vector<int>& faces) {
+    std::vector<int> distance(static_cast<std::size_t>(triangulation.triangle_count()), triangulation.triangle_count());
+    std::deque<int> queue(faces.begin(), faces.end());
+    for (const int f : faces) distance[f] = 0;
+    while (!queue.empty()) {
+        const int f = queue.front();
+        queue.pop_front();
+        for (int k = 0; k < 3; ++k) {
+            const int g = triangulation.twin(3 * f + k) / 3;
+            if (distance[g] <= distance[f] + 1) continue;
+            distance[g] = distance[f] + 1;
+            queue.push_back(g);
+        }
+    }
+    return distance;
+}
+
+/// Keeps the steps of a tree and of generators that stay away from the bad faces; all others follow by flatness.
+double mend(const Surface& source, const IntrinsicTriangulation& triangulation, const std::vector<int>& bad,
+            EquivariantMap& map) {
+    const std::vector<int> distance = distances_from(triangulation, bad);
+    std::vector<double> costs(static_cast<std::size_t>(triangulation.halfedge_count()));
+    for (int h = 0; h < triangulation.halfedge_count(); ++h)
+        costs[h] = 1.0 / (1 + std::min(distance[h / 3], distance[triangulation.twin(h) / 3]));
+    const auto farthest = std::max_element(distance.begin(), distance.end()) - distance.begin();
+    const CutTree tree = cut_tree(triangulation, triangulation.tail(3 * static_cast<int>(farthest)), costs);
+    std::vector<MarkedStep> steps = halfedge_steps(source, map);
+    const double defect = fill_by_flatness(triangulation, tree, steps);
+    set_halfedge_steps(source, steps, map);
+    return defect;
+}
+
+EquivariantMap at_vertices(const std::vector<int>& images, int edges, int classes) {
+    EquivariantMap map;
+    map.steps.resize(static_cast<std::size_t>(edges));
+    map.classes = Eigen::MatrixXi::Zero(edges, classes);
+    map.bases = images;
+    map.frames.resize(images.size());
+    return map;
+}
+
+Error bad_path(const std::string& sentence, std::vector<int> vertices) {
+    return {Cause::bad_option,
+            sentence,
+            "give closed paths of vertices along edges",
+            {Things::vertices, std::move(vertices)}};
+}
+
+/// The holonomy of a closed path of the target.
+MarkedStep around(const TargetEdges& edges, const std::vector<int>& path) {
+    MarkedStep result = edges.nowhere();
+    for (std::size_t i = 0; i < path.size(); ++i) {
+        const int a = path[i], b = path[(i + 1) % path.size()], h = edges.halfedge(a, b);
+        if (h < 0)
+            throw bad_path("no edge of the target joins vertices " + std::to_string(a) + " and " + std::to_string(b),
+                           {a, b});
+        result = result * edges.along(h);
+    }
+    return {result.isometry.normalized(), result.homology};
+}
+
+/// The half-edges along a closed path.
+std::vector<int> halfedges_along(const IntrinsicTriangulation& triangulation, const std::vector<int>& path) {
+    std::vector<int> result;
+    std::vector<std::vector<int>> from(static_cast<std::size_t>(triangulation.vertex_count()));
+    for (int h = 0; h < triangulation.halfedge_count(); ++h) from[triangulation.tail(h)].push_back(h);
+    for (std::size_t i = 0; i < path.size(); ++i) {
+        const int a = path[i], b = path[(i + 1) % path.size()];
+        int found = -1;
+        if (a >= 0 && a < triangulation.vertex_count())
+            for (const int h : from[a])
+                if (triangulation.head(h) == b) found = h;
+        if (found < 0)
+            throw bad_path("no edge of the source joins vertices " + std::to_string(a) + " and " + std::to_string(b),
+                           {a, b});
+        result.push_back(found);
+    }
+    return result;
+}
+
+/// The union of loops through one vertex: a tree, along which nothing moves, and one more edge for every loop, whose
+/// step follows from the loop's image and from those before.
+struct LoopSystem {
+    const IntrinsicTriangulation& triangulation;
+    DisjointSets sets;
+    std::vector<int> in_tree;
+    std::vector<char> barred, tree;  // flags of half-edges
+    std::vector<MarkedStep> steps;
+
+    LoopSystem(const IntrinsicTriangulation& of, const MarkedStep& nowhere)
+        : triangulation(of),
+          sets(of.vertex_count()),
+          barred(static_cast<std::size_t>(of.halfedge_count()), 0),
+          tree(barred),
+          steps(barred.size(), nowhere) {}
+
+    void add(const std::vector<int>& path, const MarkedStep& image) {
+        const std::vector<int> along = halfedges_along(triangulation, path);
+        int closing = -1;
+        for (const int h : along) {
+            const int twin = triangulation.twin(h), a = triangulation.tail(h), b = triangulation.head(h);
+            if (h == closing || twin == closing)
+                throw bad_path("a loop runs along an edge that only it has twice", {a, b});
+            if (tree[h] || barred[h]) continue;
+            if (sets.find(a) != sets.find(b)) {
+                sets.join(a, b);
+                in_tree.push_back(h);
+                tree[h] = tree[twin] = 1;
+            } else if (closing < 0) {
+                closing = h;
+                barred[h] = barred[twin] = 1;
+            } else {
+                throw bad_path("a loop crosses itself or the loops before it more than once", {a, b});
+            }
+        }
+        if (closing < 0) throw bad_path("a loop is made of those before it", {path.front()});
+        // before · closing · after = image
+        MarkedStep before = steps[along[0]] * steps[along[0]].inverse(), after = before;
+        bool passed = false;
+        for (const int h : along) {
+            if (h == closing)
+                passed = true;
+            else
+                (passed ? after : before) = (passed ? after : before) * steps[h];
+        }
+        steps[closing] = before.inverse() * image * after.inverse();
+        steps[triangulation.twin(closing)] = steps[closing].inverse();
+    }
+};
+
+}  // namespace
+
+std::vector<int> nearest_vertices(const Mesh& target, const FaceList& faces, const Positions& points) {
+    std::vector<std::array<int, 3>> triangles;
+    triangles.reserve(static_cast<std::size_t>(faces.size()));
+    for (int t = 0; t < faces.size(); ++t) triangles.push_back({faces[t][0], faces[t][1], faces[t][2]});
+    const SurfaceLocator locator(target.positions, triangles);
+    std::vector<int> result;
+    for (Eigen::Index p = 0; p < points.rows(); ++p) {
+        const SurfaceLocator::Place place = locator.nearest(points.row(p).transpose());
+        const auto largest = std::max_element(place.barycentric.begin(), place.barycentric.end());
+        result.push_back(triangles[static_cast<std::size_t>(place.triangle)]
+                                  [static_cast<std::size_t>(largest - place.barycentric.begin())]);
+    }
+    return result;
+}
+
+Marking marking_by_vertices(const Surface& source, const IntrinsicTriangulation& triangulation, const EdgeGroup& target,
+                            const std::vector<int>& images) {
+    TargetEdges edges(target);
+    Marking marking{at_vertices(images, source.topology.edge_count(), edges.size())};
+    for (int e = 0; e < source.topology.edge_count(); ++e) {
+        const auto [a, b] = source.topology.edges[static_cast<std::size_t>(e)];
+        const MarkedStep step = edges.between(images[a], images[b]);
+        marking.map.steps[static_cast<std::size_t>(e)] = step.isometry.normalized();
+        marking.map.classes.row(e) = step.homology;
+    }
+    std::vector<int> bad = faces_not_flat(source, marking.map);
+    marking.mended = static_cast<int>(bad.size());
+    if (bad.empty()) return marking;
+    marking.defect = mend(source, triangulation, bad, marking.map);
+    if (!(marking.defect < kFlat)) {
+        const std::string faces = std::to_string(bad.size());
+        throw Error(Cause::bad_option,
+                    "no map takes the vertices near their images: around " + faces +
+                        " faces these do not close up, and the loops far from there contradict each other (defect " +
+                        short_number(marking.defect) + ")",
+                    "bring the source nearer to the target, or give a start or loops", {Things::faces, std::move(bad)});
+    }
+    return marking;
+}
+
+Marking marking_by_loops(const Surface& source, const IntrinsicTriangulation& triangulation, const EdgeGroup& target,
+                         const std::vector<std::vector<int>>& paths, const std::vector<std::vector<int>>& images) {
+    const int genus = source.topology.genus;
+    const auto wanted = 2 * static_cast<std::size_t>(genus);
+    if (paths.size() != wanted || images.size() != wanted)
+        throw Error(Cause::bad_option,
+                    "a marking of genus " + std::to_string(genus) + " takes " + std::to_string(wanted) +
+                        " loops and as many images, and there are " + std::to_string(paths.size()) + " and " +
+                        std::to_string(images.size()),
+                    "give generators of the fundamental group");
+    const TargetEdges edges(target);
+    LoopSystem loops(triangulation, edges.nowhere());
+    for (std::size_t i = 0; i < wanted; ++i) {
+        if (paths[i].empty() || images[i].empty() || paths[i][0] != paths[0][0] || images[i][0] != images[0][0])
+            throw bad_path("loops do not begin at one vertex", {});
+        loops.add(paths[i], around(edges, images[i]));
+    }
+    const CutTree tree =
+        cut_tree(triangulation, paths[0][0], std::vector<double>(loops.steps.size(), 1.0), loops.in_tree, loops.barred);
+    if (tree.generators.size() != wanted ||
+        static_cast<int>(tree.triangle_order.size()) != triangulation.triangle_count())
+        throw Error(Cause::bad_option, "the loops do not cut the source open to a disk",
+                    "give generators of the fundamental group");
+    const std::vector<int> all_at(static_cast<std::size_t>(triangulation.vertex_count()), images[0][0]);
+    Marking marking{at_vertices(all_at, source.topology.edge_count(), edges.size())};
+    marking.defect = fill_by_flatness(triangulation, tree, loops.steps);
+    if (!(marking.defect < kFlat))
+        throw Error(Cause::bad_option,
+                    "the loops contradict each other: what closes up on the source does not on the target (defect " +
+                        short_number(marking.defect) + ")",
+                    "loops must cross as their images do: turn one round, or exchange two");
+    set_halfedge_steps(source, loops.steps, marking.map);
+    return marking;
+}
+
+EquivariantMap twisted(const Surface& source, const IntrinsicTriangulation& triangulation, EquivariantMap map,
+                       const std::vector<int>& path, int turns) {
+    const std::vector<int> along = halfedges_along(triangulation, path);
+    std::vector<char> visited(static_cast<std::size_t>(triangulation.vertex_count()), 0);
+    for (const int v : path)
+        if (visited[v]++) throw bad_path("the path meets vertex " + std::to_string(v) + " twice", {v});
+    std::vector<MarkedStep> steps = halfedge_steps(source, map);
+    MarkedStep holonomy = steps[along[0]];
+    for (std::size_t i = 1; i < along.size(); ++i) holonomy = holonomy * steps[along[i]];
+    std::vector<MarkedStep> result = steps;
+    for (std::size_t i = 0; i < along.size(); ++i) {
+        // All edges that leave the path to its left first go around it; counter to its direction that is a turn left.
+        MarkedStep turn{{}, Eigen::RowVectorXi::Zero(map.classes.cols())};
+        for (int n = 0; n < std::abs(turns); ++n) turn = turn * (turns > 0 ? holonomy.inverse() : holonomy);
+        const int back = along[(i + along.size() - 1) % along.size()];
+        for (int h = triangulation.twin(IntrinsicTriangulation::previous(along[i])); h != triangulation.twin(back);
+             h = triangulation.twin(IntrinsicTriangulation::previous(h))) {
+            result[h] = turn * result[h];
+            result[triangulation.twin(h)] = result[h].inverse();
+        }
+        holonomy = steps[along[i]].inverse() * holonomy * steps[along[i]];
+    }
+    set_halfedge_steps(source, result, map);
+    return map;
+}
+
+}  // namespace beltrami
