@@ -8,6 +8,7 @@
 #include <beltrami/teichmuller/torus_map.h>
 
 #include "command.h"
+#include "marking_options.h"
 #include "mesh_input.h"
 
 namespace beltrami::cli {
@@ -19,8 +20,10 @@ class DistanceCommand final : public Command {
     explicit DistanceCommand(CLI::App& parent) {
         CLI::App* app = parent.add_subcommand(
             "distance", "Teichmueller's distance ½ log K* between shapes of one topology, with its bracket");
-        app->add_option("MESH", meshes_,
-                        "two or more: OBJ, PLY, OFF or STL, of genus 0 with as many boundary loops, or tori")
+        app->add_option(
+               "MESH", meshes_,
+               "two or more: OBJ, PLY, OFF or STL, of genus 0 with as many boundary loops, or closed surfaces of "
+               "one genus")
             ->required()
             ->expected(2, 1 << 20);
         outer_option_ =
@@ -33,6 +36,7 @@ class DistanceCommand final : public Command {
                             "holes go to those nearest after the best Moebius map of the disk, or of like size")
                 ->check(CLI::IsMember({"position", "size"}))
                 ->capture_default_str();
+        align_option_ = add_align_option(*app, align_);
         app->add_option("--picture", picture_, "the matrix and the tree of its clusters, as SVG")
             ->type_name("FILE.svg");
         options_.add_to(*app);
@@ -60,7 +64,9 @@ class DistanceCommand final : public Command {
             for (const Warning& finding : findings) record.warnings.push_back(prefixed(mesh, finding));
         }
         record.source = source_record(surfaces[0]);
-        record.distances = is_torus(surfaces[0]) ? between_tori(surfaces) : between_domains(surfaces);
+        record.distances = genus_of_closed(surfaces[0]) == 1  ? between_tori(surfaces)
+                           : genus_of_closed(surfaces[0]) > 1 ? between_handles(surfaces)
+                                                              : between_domains(surfaces);
         if (!picture_.empty())
             write_atomically(picture_,
                              render_dendrogram(names(), record.distances->matrix.distance, record.distances->merges));
@@ -77,21 +83,41 @@ class DistanceCommand final : public Command {
     }
 
   private:
-    static bool is_torus(const Surface& surface) {
-        return surface.topology.genus == 1 && surface.topology.components == 1 &&
-               surface.topology.boundary_loops.empty();
+    /// 0 of a surface that is none.
+    static int genus_of_closed(const Surface& surface) {
+        const bool closed = surface.topology.components == 1 && surface.topology.boundary_loops.empty();
+        return closed ? surface.topology.genus : 0;
+    }
+
+    void refuse(std::initializer_list<const CLI::Option*> options, const char* why) const {
+        for (const CLI::Option* option : options)
+            if (option->count() > 0) throw Error(Cause::bad_option, option->get_name() + why, "leave it out");
+    }
+
+    DistancesRecord between_handles(const std::vector<Surface>& surfaces) {
+        refuse({outer_option_, match_option_}, " is for boundary loops, and closed surfaces have none");
+        DistanceMatrix matrix;
+        {
+            Progress progress(!common_.quiet);
+            const auto show = [&](int done, int all) {
+                progress.show(done, static_cast<double>(all), "of");
+                return true;
+            };
+            matrix = handle_distances(surfaces, alignment_of(align_), show, meshes_);
+        }
+        warn_of_unsettled(matrix);
+        return {meshes_, matrix, cluster_by_distance(matrix.distance)};
     }
 
     DistancesRecord between_tori(const std::vector<Surface>& surfaces) const {
-        for (const CLI::Option* option : {outer_option_, match_option_})
-            if (option->count() > 0)
-                throw Error(Cause::bad_option, option->get_name() + " is for boundary loops, and tori have none",
-                            "leave it out");
+        refuse({outer_option_, match_option_}, " is for boundary loops, and tori have none");
+        refuse({align_option_}, " is for nearest points, and of tori all classes are tried");
         TorusDistances found = torus_distances(surfaces, meshes_);
         return {meshes_, found.matrix, cluster_by_distance(found.matrix.distance), found.tau, found.markings};
     }
 
     DistancesRecord between_domains(const std::vector<Surface>& surfaces) {
+        refuse({align_option_}, " is for closed surfaces with handles");
         Correspondence wanted;
         wanted.outer_loop = outer_;
         wanted.match_by = match_ == "size" ? MatchBy::size : MatchBy::position;
@@ -104,12 +130,16 @@ class DistanceCommand final : public Command {
             };
             matrix = distance_matrix(surfaces, wanted, {}, show, meshes_);
         }
+        warn_of_unsettled(matrix);
+        return {meshes_, matrix, cluster_by_distance(matrix.distance)};
+    }
+
+    void warn_of_unsettled(const DistanceMatrix& matrix) {
         for (const auto& [i, j] : matrix.unsettled)
             record_.warnings.push_back({WarningKind::distance,
                                         meshes_[i] + " and " + meshes_[j] +
                                             ": a map has not converged or has folds, their distance is an estimate",
                                         {Things::shapes, {i, j}}});
-        return {meshes_, matrix, cluster_by_distance(matrix.distance)};
     }
 
     /// File names without their folders and extensions.
@@ -148,7 +178,8 @@ class DistanceCommand final : public Command {
     std::vector<std::string> meshes_;
     std::string match_ = "position", picture_;
     int outer_ = 0;
-    CLI::Option *outer_option_ = nullptr, *match_option_ = nullptr;
+    std::string align_ = "none";
+    CLI::Option *outer_option_ = nullptr, *match_option_ = nullptr, *align_option_ = nullptr;
     MeshInputOptions options_;
 };
 

@@ -6,6 +6,7 @@
 #include "command.h"
 #include "curve_option.h"
 #include "landmark_options.h"
+#include "marking_options.h"
 #include "mesh_input.h"
 #include "output.h"
 #include "page.h"
@@ -22,10 +23,13 @@ class Register final : public Command {
     explicit Register(CLI::App& parent) {
         CLI::App* app = parent.add_subcommand(
             "register",
-            "carry a surface onto another one by the map of least dilatation that takes landmarks to their places");
-        app->add_option("SOURCE", source_, "OBJ, PLY, OFF or STL; one component of genus 0, closed or with a boundary")
+            "carry a surface onto another one by the map of least dilatation that takes landmarks to their places, or "
+            "handles to handles");
+        app->add_option("SOURCE", source_,
+                        "OBJ, PLY, OFF or STL; one component of genus 0, closed or with a boundary, or closed of any "
+                        "genus")
             ->required();
-        app->add_option("TARGET", target_, "likewise, with as many boundary loops")->required();
+        app->add_option("TARGET", target_, "likewise, of the same genus and with as many boundary loops")->required();
         app->add_option("-o,--output", output_,
                         "SOURCE's vertices at their places on TARGET, in PLY with per face mu_re, mu_im, abs_mu, K of "
                         "the map")
@@ -40,6 +44,7 @@ class Register final : public Command {
         app->add_option("--p", p_, "p of that norm; the larger the more even abs(mu) becomes")
             ->check(CLI::Range(2.0, 64.0))
             ->capture_default_str();
+        marking_.add_to(*app);
         app->add_option("--start-map", start_,
                         "begin with the map that takes SOURCE's vertices to the points of TARGET nearest to this "
                         "mesh's: SOURCE's vertices and faces in their order, as OUT has them")
@@ -67,6 +72,8 @@ class Register final : public Command {
         const std::vector<NamedFile> curve_files = curves_.inputs();
         inputs.insert(inputs.end(), curve_files.begin(), curve_files.end());
         inputs.insert(inputs.end(), {{"SOURCE", source_}, {"TARGET", target_}, {"--start-map", start_}});
+        const std::vector<NamedFile> paths = marking_.inputs();
+        inputs.insert(inputs.end(), paths.begin(), paths.end());
         common_.check_files(inputs, {{"-o", output_}, {"--places", places_}});
         record_.command = "register";
         MeshInput source_input = load("SOURCE", source_), target_input = load("TARGET", target_);
@@ -75,9 +82,24 @@ class Register final : public Command {
         RegistrationOptions options;
         options.waypoints = landmarks_.waypoints(source_input, target_input);
         if (max_iterations_) options.map.max_iterations = *max_iterations_;
-        if (!start_.empty()) options.start = start(source_input.mesh, target_input);
+        if (!start_.empty()) options.start = places_near(start_points(source_input.mesh, target_input), target_input);
         const Surface source = surface("SOURCE", source_input), target = surface("TARGET", target_input);
         record_.source = source_record(source);
+        if (is_closed(source) && source.topology.genus > 0) {
+            if (!landmarks.empty() || !options.waypoints.empty())
+                throw Error(Cause::bad_option,
+                            "--landmarks are for surfaces of genus 0: no extremal map of closed "
+                            "surfaces with handles is known here that takes points to points",
+                            "leave them out; the class is told by --loop, --start-map or --twist");
+            if (least_lp())
+                throw Error(Cause::bad_option, "least Lᵖ maps and curves are registered on surfaces of genus 0",
+                            "leave them out, or follow a norm with beltrami flow --onto TARGET");
+            with_handles(source, target, source_input, target_input);
+            return 0;
+        }
+        if (const std::string stray = marking_.given(); !stray.empty())
+            throw Error(Cause::bad_option, stray + " is for closed surfaces with handles, and SOURCE is none",
+                        "leave it out");
         if (is_closed(source) != is_closed(target))
             throw Error(Cause::bad_mesh, "one of SOURCE and TARGET is closed and the other has a boundary",
                         "fill the holes of the one, or cut the other open");
@@ -151,11 +173,17 @@ class Register final : public Command {
     void conclude(const Found& found, const MeshInput& source, const MeshInput& target,
                   const std::vector<SurfaceLandmark>& landmarks) {
         append(record_.warnings, found.warnings);
-        record_.map = map_record(found.map);
-        record_.solve = solve_record(found.map, seconds() - begun_);
         record_.registration = registration_record(found, target_, landmarks.size());
         if (record_.registration->largest_distance) *record_.registration->largest_distance *= target.unit;
-        write(found, found.map.distortion, source, target);
+        conclude_with(found, found.map, source, target);
+    }
+
+    template <class Map>
+    void conclude_with(const CarriedSurface& carried, const Map& map, const MeshInput& source,
+                       const MeshInput& target) {
+        record_.map = map_record(map);
+        record_.solve = solve_record(map, seconds() - begun_);
+        write(carried, map.distortion, source, target);
     }
 
     void write(const CarriedSurface& found, const Distortion& distortion, const MeshInput& source,
@@ -187,13 +215,53 @@ class Register final : public Command {
         }
     }
 
-    std::vector<MeshPoint> start(const Mesh& source, const MeshInput& target) {
+    /// The vertices of --start-map, in the target's unit.
+    Positions start_points(const Mesh& source, const MeshInput& target) {
         const Mesh mesh = load_of_same_faces("--start-map", start_, source, record_.warnings);
         Positions points(mesh.vertex_count(), 3);
         for (int v = 0; v < mesh.vertex_count(); ++v) points.row(v) = mesh.point(v) / target.unit;
+        return points;
+    }
+
+    static std::vector<MeshPoint> places_near(const Positions& points, const MeshInput& target) {
         std::vector<MeshPoint> places;
         for (const NearestPlace& nearest : nearest_places(target.mesh, points)) places.push_back(nearest.place);
         return places;
+    }
+
+    /// Closed surfaces of genus 1 and more.
+    void with_handles(const Surface& source, const Surface& target, const MeshInput& source_input,
+                      const MeshInput& target_input) {
+        if (target.topology.genus != source.topology.genus || !is_closed(target))
+            throw Error(
+                Cause::bad_mesh,
+                fmt::format("SOURCE is a closed surface of genus {}, and TARGET {} of genus {}", source.topology.genus,
+                            is_closed(target) ? "one" : "a surface with a boundary", target.topology.genus),
+                "take surfaces of one topology");
+        HandleMarking marking = marking_.load(source_input, target_input);
+        if (!start_.empty()) marking.start = start_points(source_input.mesh, target_input);
+        if (source.topology.genus == 1) {
+            const TorusMap found =
+                register_tori(source, target, marking_.searches() ? std::nullopt : std::optional(std::move(marking)));
+            append(record_.warnings, found.warnings);
+            record_.registration = registration_record(found, target_);
+            conclude_with(found, found, source_input, target_input);
+            return;
+        }
+        if (marking_.searches())
+            throw Error(Cause::bad_option, "--marking search is for tori", "tell the class by --loop or --start-map");
+        const HyperbolicShape from(source), to(target);
+        HyperbolicMapOptions options;
+        if (max_iterations_) options.max_iterations = *max_iterations_;
+        Progress progress(!common_.quiet);
+        options.progress = [&](int iteration, double k) {
+            progress.show(iteration, k);
+            return true;
+        };
+        const HandleRegistration found = register_handles(from, to, marking, options);
+        append(record_.warnings, found.map.warnings);
+        record_.registration = registration_record(found, from, target_);
+        conclude_with(found.map, found.map, source_input, target_input);
     }
 
     std::string source_, target_, output_, start_, places_;
@@ -204,6 +272,7 @@ class Register final : public Command {
     CurveOption curves_;
     std::string method_;
     double p_ = 2;
+    MarkingOptions marking_;
     MeshInputOptions options_;
 };
 

@@ -4,6 +4,8 @@
 #include <beltrami/charts/uniformization.h>
 #include <beltrami/forms/flat_torus.h>
 #include <beltrami/forms/period_matrix.h>
+#include <beltrami/hyperbolic/hyperbolic_domain.h>
+#include <beltrami/io/atomic_file.h>
 #include <beltrami/mesh/edge_table.h>
 #include <beltrami/mesh/texture_map.h>
 
@@ -35,8 +37,9 @@ class Uniformize final : public Command {
             "uniformize",
             "conformal map to the canonical domain: a closed surface to the sphere or, of genus 1, the flat torus, a "
             "disk "
-            "to the round disk, a surface with holes to the disk less round holes, with its moduli; of closed surfaces "
-            "with more handles the period matrix alone");
+            "to the round disk, a surface with holes to the disk less round holes, with its moduli; a closed surface "
+            "of "
+            "genus 2 or more to a fundamental polygon of the hyperbolic plane, in the unit disk");
         app->add_option("SOURCE", source_, "OBJ, PLY, OFF or STL; one component of genus 0, or closed")->required();
         output_.add_to(*app);
         app->add_option("--outer", outer_,
@@ -50,6 +53,11 @@ class Uniformize final : public Command {
                "the first one that is not the outer loop")
             ->check(CLI::NonNegativeNumber)
             ->type_name("h");
+        app->add_option(
+               "--loops", loops_,
+               "of closed surfaces with handles: write short closed paths of vertices to PREFIX0.txt … and, of "
+               "genus 2 or more, generators of the fundamental group to PREFIX_generator0.txt …")
+            ->type_name("PREFIX");
         sphere_.add_to(*app);
         metric_.add_to(*app);
         options_.add_to(*app);
@@ -83,7 +91,7 @@ class Uniformize final : public Command {
         else if (source.topology.genus == 1)
             to_torus(source, input, start);
         else
-            only_periods(source, input, start);
+            to_hyperbolic_plane(source, input, start);
         return 0;
     }
 
@@ -135,7 +143,25 @@ class Uniformize final : public Command {
         record_.periods =
             periods_record(found.homology, found.generators, Eigen::MatrixXcd::Constant(1, 1, found.tau), input.unit);
         record_.torus = torus_record(found);
-        const Distortion& d = found.distortion;
+        finish_layout(source, input, found.layout, found.distortion);
+    }
+
+    void to_hyperbolic_plane(const Surface& source, const MeshInput& input, double start) {
+        output_.check_layout();
+        const HyperbolicSurface metric = hyperbolic_surface(source);
+        const HyperbolicDomain found = hyperbolic_domain(source, metric);
+        const HarmonicBasis basis = harmonic_basis(source);
+        const PeriodMatrix periods = period_matrix(source, basis);
+        record_.solve = direct_solve(metric.factorizations + basis.factorizations, start);
+        record_.solve->iterations = metric.iterations;
+        record_.periods = periods_record(basis.homology, periods.basis, periods.periods, input.unit);
+        record_.hyperbolic = hyperbolic_record(metric, found);
+        finish_layout(source, input, found.layout, found.distortion);
+    }
+
+    /// A map with seams is written, and the record.
+    void finish_layout(const Surface& source, const MeshInput& input, const TextureCoordinates& layout,
+                       const Distortion& d) {
         if (!d.flipped.empty())
             record_.warnings.push_back({WarningKind::flipped_faces,
                                         counted(d.flipped.size(), "face comes", "faces come") +
@@ -143,24 +169,25 @@ class Uniformize final : public Command {
                                             std::to_string(d.flipped[0]),
                                         {Things::faces, d.flipped}});
         record_.map = map_record(d);
-        output_.write_layout(source.mesh, found.layout, d, input.attributes, input.unit);
-        write_page(common_, cut_along_seams(source.mesh, found.layout),
-                   {{"conformal", found.layout.points, d.face_abs_mu}}, {}, record_, source_);
+        output_.write_layout(source.mesh, layout, d, input.attributes, input.unit);
+        if (!loops_.empty()) write_loops(input);
+        write_page(common_, cut_along_seams(source.mesh, layout), {{"conformal", layout.points, d.face_abs_mu}}, {},
+                   record_, source_);
         finish(record_, common_, "conformal", {output_.path(), common_.json, common_.report});
     }
 
-    /// What is known of the shape, and that there is no map yet.
-    void only_periods(const Surface& source, const MeshInput& input, double start) {
-        const HarmonicBasis basis = harmonic_basis(source);
-        const PeriodMatrix found = period_matrix(source, basis);
-        record_.solve = direct_solve(basis.factorizations, start);
-        record_.periods = periods_record(basis.homology, found.basis, found.periods, input.unit);
-        finish(record_, common_, {}, {common_.json});
-        throw Error(Cause::bad_mesh,
-                    fmt::format("SOURCE is a closed surface of genus {}, of which the periods are all that is computed "
-                                "yet: {} is not written",
-                                source.topology.genus, output_.path()),
-                    "cut it until a surface of genus 0 is left");
+    /// Short simple loops, PREFIX0.txt …, and generators through one vertex, PREFIX_generator0.txt ….
+    void write_loops(const MeshInput& input) const {
+        const auto write = [&](const std::string& name, const std::vector<int>& path) {
+            std::string text;
+            for (const int v : path) text += std::to_string(input.vertices[static_cast<std::size_t>(v)]) + "\n";
+            write_atomically(loops_ + name + ".txt", text);
+        };
+        for (std::size_t l = 0; l < record_.periods->loops.size(); ++l)
+            write(std::to_string(l), record_.periods->loops[l].vertices);
+        if (!record_.hyperbolic) return;
+        for (std::size_t i = 0; i < record_.hyperbolic->generators.size(); ++i)
+            write("_generator" + std::to_string(i), record_.hyperbolic->generators[i].vertices);
     }
 
     /// One linear solve.
@@ -186,6 +213,9 @@ class Uniformize final : public Command {
                 Cause::bad_mesh,
                 fmt::format("SOURCE is an open surface of genus {}, which cannot be uniformized yet", topology.genus),
                 "cut it until a surface of genus 0 is left");
+        if (!loops_.empty() && (loops > 0 || topology.genus == 0))
+            throw Error(Cause::bad_option, "--loops is for closed surfaces with handles, and SOURCE is none",
+                        "leave it out");
         if (sphere_.given() && (loops > 0 || topology.genus > 0))
             throw Error(Cause::bad_option,
                         fmt::format("--method is for closed surfaces of genus 0, and SOURCE has {}",
@@ -204,7 +234,7 @@ class Uniformize final : public Command {
                         "name another loop, or another outer one with --outer");
     }
 
-    std::string source_;
+    std::string source_, loops_;
     std::optional<int> outer_, centre_;
     SphereMethodOption sphere_;
     OutputOptions output_;

@@ -112,6 +112,7 @@ SquareTiling half_translation(int squares, const std::vector<int>& angles) {
 
 TiledSurface tiled_surface(const SquareTiling& tiling, int k, Complex mu, double jitter) {
     int count = 0;
+    const bool turns = connected_with_half_turn(tiling);
     std::map<std::array<int, 3>, int> vertices = number_vertices(tiling, k, count);
     Random random(1);
     Mesh mesh;
@@ -131,8 +132,8 @@ TiledSurface tiled_surface(const SquareTiling& tiling, int k, Complex mu, double
             for (int j = 0; j < k; ++j) {
                 const std::array<std::array<int, 2>, 4> q{{{i, j}, {i + 1, j}, {i + 1, j + 1}, {i, j + 1}}};
                 bool rising = jitter > 0 ? random.uniform() < 0.5 : (i + j) % 2 == 0;
-                // Not through the corners of the square, where two edges could join the same vertices.
-                if ((i == 0 || i == k - 1) && (j == 0 || j == k - 1)) rising = (i == 0) != (j == 0);
+                // With half-turns not through the corners of the square: two edges could join the same vertices.
+                if (turns && (i == 0 || i == k - 1) && (j == 0 || j == k - 1)) rising = (i == 0) != (j == 0);
                 const auto add = [&](std::array<std::size_t, 3> t) {
                     mesh.faces.add({vertices.at({s, q[t[0]][0], q[t[0]][1]}), vertices.at({s, q[t[1]][0], q[t[1]][1]}),
                                     vertices.at({s, q[t[2]][0], q[t[2]][1]})});

@@ -101,10 +101,18 @@ const Page& flows() {
     return page;
 }
 
+const Page& higher_genus() {
+    static const Page page{"gallery-genus.md",
+                           "# Gallery: higher genus\n\n"
+                           "Extremal maps between closed surfaces of genus 2 and 3, made by `./run gallery`.\n\n",
+                           {{"genus", genus}}};
+    return page;
+}
+
 }  // namespace
 
 const std::vector<Page>& pages() {
-    static const std::vector<Page> list{prescribed(), sliding(), sphere(), handles(), flows()};
+    static const std::vector<Page> list{prescribed(), sliding(), sphere(), handles(), higher_genus(), flows()};
     return list;
 }
 

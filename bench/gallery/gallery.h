@@ -205,6 +205,7 @@ Figure sliding_distance_scans(Output& output);  ///< of scans, if the folder BEL
 Figure spheres(Output& output);        ///< closed surfaces, scans if the folder BELTRAMI_MESHES has them
 Figure registrations(Output& output);  ///< closed surfaces carried onto each other with landmarks
 Figure tori(Output& output);           ///< flat metrics of tori and the maps between them
+Figure genus(Output& output);          ///< exact maps of square-tiled surfaces, deformed double tori
 
 // Along surfaces in space: beside Wong & Zhao.
 Figure flow_disk(Output& output);       ///< Table 5.1

@@ -59,6 +59,20 @@ def corners_of_vt(path):
     return np.array(vt)[faces[:, :, 1]], faces[:, :, 0]
 
 
+def corners_of_vt_of_any(path):
+    """vt and vertices of all corners, of faces of any degree."""
+    vt, corners = [], []
+    with open(path) as lines:
+        for line in lines:
+            word, *rest = line.split() or [""]
+            if word == "vt":
+                vt.append([float(x) for x in rest])
+            elif word == "f":
+                corners += [[int(n) - 1 for n in c.split("/")[:2]] for c in rest]
+    corners = np.array(corners)
+    return np.array(vt)[corners[:, 1]], corners[:, 0]
+
+
 class Tori(Command):
     def write_torus(self, name, *shape):
         write_obj(self.path(name), *torus(*shape))
@@ -116,21 +130,29 @@ class Tori(Command):
             self.run_command("uniformize", mesh, *arguments, code=2)
         self.assert_nothing_left("torus.obj")
 
-    def test_more_handles_have_their_periods_and_no_map(self):
+    def test_more_handles_have_a_polygon_in_the_disk(self):
         points, faces = bar(3)
         write_obj(self.path("bar.obj"), points, faces)
         arguments = ("uniformize", self.path("bar.obj"), "-o", self.path("out.obj"))
-        done = self.run_command(*arguments, code=4)
-        self.assertIn("genus 3", done.stderr)
-        self.assertIn("period matrix:", done.stdout)
-        record = self.record(*arguments, code=4)
+        self.assertIn("period matrix:", self.run_command(*arguments).stdout)
+        record = self.record(*arguments, "--loops", self.path("loop"))
         periods = np.array(record["periods"]["matrix"])
         self.assertEqual(periods.shape, (3, 3, 2))
         np.testing.assert_allclose(periods, periods.transpose(1, 0, 2), atol=1e-12)
         self.assertGreater(np.linalg.eigvalsh(periods[:, :, 1]).min(), 0.05)
         self.assertEqual(len(record["periods"]["loops"]), 6)
-        self.assertNotIn("map", record)
-        self.assert_nothing_left("bar.obj")
+        hyperbolic = record["hyperbolic"]
+        self.assertAlmostEqual(hyperbolic["area"], 8 * math.pi, delta=1e-9)
+        self.assertLess(hyperbolic["relation"], 1e-7)
+        self.assertEqual(len(hyperbolic["generators"]), 6)
+        for number, generator in enumerate(hyperbolic["generators"]):
+            matrix = np.array(generator["matrix"])
+            self.assertAlmostEqual(np.linalg.det(matrix), 1, delta=1e-6)
+            self.assertAlmostEqual(2 * math.acosh(abs(np.trace(matrix)) / 2), generator["length"], delta=1e-9)
+            path = np.loadtxt(self.path(f"loop_generator{number}.txt"), dtype=int)
+            self.assertEqual(path.tolist(), generator["vertices"])
+        vt, _ = corners_of_vt_of_any(self.path("out.obj"))
+        self.assertLess(np.linalg.norm(vt, axis=1).max(), 1)
 
     def test_distances_are_least_over_all_markings(self):
         meshes = (self.write_torus("thin.obj", 2, 1, 40, 20), self.write_torus("square.obj", math.sqrt(2), 1, 36, 28),

@@ -141,11 +141,7 @@ Eigen::MatrixXcd random_start(Eigen::Index rows, Eigen::Index columns) {
 }  // namespace
 
 HyperbolicSpace hyperbolic_space(const Surface& source, const HyperbolicSurface& metric) {
-    const FaceList& faces = source.mesh.faces;
-    for (int f = 0; f < faces.size(); ++f)
-        if (faces.degree(f) != 3)
-            throw Error(Cause::bad_mesh, "face " + std::to_string(f) + " is not a triangle",
-                        "cut the faces into triangles", {Things::faces, {f}});
+    require_triangles(source);
     const int dimension = 3 * metric.genus - 3;
     const std::vector<FaceOperator> operators = face_operators(source, metric);
     const DbarSystem system(source, operators);

@@ -1,11 +1,18 @@
 #include <beltrami/hyperbolic/equivariant_map.h>
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include <beltrami/base/error.h>
 
 namespace beltrami {
+
+int edge_between(const Topology& topology, int a, int b) {
+    const std::array<int, 2> ends{std::min(a, b), std::max(a, b)};
+    const auto found = std::lower_bound(topology.edges.begin(), topology.edges.end(), ends);
+    return found == topology.edges.end() || *found != ends ? -1 : static_cast<int>(found - topology.edges.begin());
+}
 
 DiskIsometry step_at_corner(const Surface& source, const EquivariantMap& map, int corner) {
     const auto edge = static_cast<std::size_t>(source.topology.corner_edges[corner]);
@@ -31,14 +38,12 @@ Eigen::MatrixXi periods_of_images(const Topology& source, const EquivariantMap& 
     for (std::size_t l = 0; l < loops.size(); ++l)
         for (std::size_t i = 0; i < loops[l].size(); ++i) {
             const int a = loops[l][i], b = loops[l][(i + 1) % loops[l].size()];
-            const std::array<int, 2> ends{std::min(a, b), std::max(a, b)};
-            const auto edge = std::lower_bound(source.edges.begin(), source.edges.end(), ends);
-            if (edge == source.edges.end() || *edge != ends)
+            const int edge = edge_between(source, a, b);
+            if (edge < 0)
                 throw Error(Cause::bad_option,
                             "no edge joins vertices " + std::to_string(a) + " and " + std::to_string(b),
                             "paths go along edges", {Things::vertices, {a, b}});
-            result.row(static_cast<Eigen::Index>(l)) +=
-                (a < b ? 1 : -1) * map.classes.row(static_cast<Eigen::Index>(edge - source.edges.begin()));
+            result.row(static_cast<Eigen::Index>(l)) += (a < b ? 1 : -1) * map.classes.row(edge);
         }
     return result;
 }

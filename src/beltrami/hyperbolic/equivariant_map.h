@@ -21,6 +21,9 @@ struct EquivariantMap {
     std::vector<DiskIsometry> frames;  ///< #V the image and its frame, seen from the frame of the target at its base
 };
 
+/// The edge between two vertices, −1 if there is none.
+int edge_between(const Topology& topology, int a, int b);
+
 /// The step along a face's corner: from its vertex to the next one.
 DiskIsometry step_at_corner(const Surface& source, const EquivariantMap& map, int corner);
 

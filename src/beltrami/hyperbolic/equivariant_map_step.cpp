@@ -31,13 +31,6 @@ ElementSystem system_of(const Surface& source) {
     return {std::move(offsets), std::move(nodes), source.mesh.vertex_count(), many, 2};
 }
 
-void require_triangles(const Surface& source) {
-    for (int f = 0; f < source.mesh.face_count(); ++f)
-        if (source.mesh.faces.degree(f) != 3)
-            throw Error(Cause::bad_mesh, "face " + std::to_string(f) + " is not a triangle",
-                        "cut the faces into triangles", {Things::faces, {f}});
-}
-
 /// What an edge adds to the energy's derivatives: its length, and unit vectors at both ends towards each other.
 struct EdgeTerms {
     double length, stretched, shrunk;  // d, d coth d, d / sinh d

@@ -129,8 +129,8 @@ std::vector<MeshPoint> places_of(const HyperbolicSurface& target, const Equivari
         for (double& weight : points[v].weights) weight /= sum;
     }
     if (!lost.empty()) {
-        const std::string count = std::to_string(lost.size());
-        throw Error(Cause::not_solved, count + " vertices are not found on the target",
+        const std::string missing = std::to_string(lost.size());
+        throw Error(Cause::not_solved, missing + " vertices are not found on the target",
                     "remesh the target: its triangles are too thin for double precision",
                     {Things::vertices, std::move(lost)});
     }

@@ -232,4 +232,11 @@ HyperbolicSurface hyperbolic_surface(const Surface& surface) {
     return result;
 }
 
+void require_triangles(const Surface& surface) {
+    for (int f = 0; f < surface.mesh.face_count(); ++f)
+        if (surface.mesh.faces.degree(f) != 3)
+            throw Error(Cause::bad_mesh, "face " + std::to_string(f) + " is not a triangle",
+                        "cut the faces into triangles", {Things::faces, {f}});
+}
+
 }  // namespace beltrami

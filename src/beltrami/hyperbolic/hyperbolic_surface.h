@@ -44,4 +44,7 @@ struct HyperbolicSurface {
 /// @throw Error bad_mesh unless the surface is one component, closed, of genus 2 or more; not_solved
 HyperbolicSurface hyperbolic_surface(const Surface& surface);
 
+/// @throw Error bad_mesh naming a face that is not a triangle
+void require_triangles(const Surface& surface);
+
 }  // namespace beltrami

@@ -26,13 +26,6 @@ std::string short_number(double x) {
     return text;
 }
 
-/// The edge of a mesh between two vertices, −1 if there is none.
-int edge_between(const Topology& topology, int a, int b) {
-    const std::array<int, 2> ends{std::min(a, b), std::max(a, b)};
-    const auto found = std::lower_bound(topology.edges.begin(), topology.edges.end(), ends);
-    return found == topology.edges.end() || *found != ends ? -1 : static_cast<int>(found - topology.edges.begin());
-}
-
 /// Walks along the edges of the target: steps with homology classes, and shortest paths.
 class TargetEdges {
   public:

@@ -4,8 +4,8 @@
 #include <span>
 
 #include <beltrami/base/public.h>
-#include <beltrami/teichmuller/carried_surface.h>
 #include <beltrami/registration/surface_landmarks.h>
+#include <beltrami/teichmuller/carried_surface.h>
 #include <beltrami/teichmuller/extremal_map.h>
 
 namespace beltrami BELTRAMI_PUBLIC {

@@ -6,8 +6,8 @@
 
 #include <beltrami/base/public.h>
 #include <beltrami/locate/planar_locator.h>
-#include <beltrami/teichmuller/carried_surface.h>
 #include <beltrami/registration/surface_landmarks.h>
+#include <beltrami/teichmuller/carried_surface.h>
 #include <beltrami/teichmuller/extremal_sphere.h>
 #include <beltrami/uniformize/sphere_map.h>
 

@@ -134,7 +134,48 @@ MapRecord map_record(const ExtremalSphereMap& result) {
     return record;
 }
 
+HyperbolicRecord hyperbolic_record(const HyperbolicSurface& metric, const HyperbolicDomain& domain) {
+    HyperbolicRecord record;
+    record.area = metric.area();
+    record.residual = metric.residual;
+    record.flips = static_cast<int>(metric.unfolded.size());
+    record.ptolemy_flips = static_cast<int>(metric.ptolemy.size());
+    record.inverted = static_cast<int>(metric.inverted.size());
+    for (std::size_t i = 0; i < domain.generators.size(); ++i)
+        record.generators.push_back({domain.lengths[i], domain.generators[i].on_half_plane(), domain.paths[i]});
+    record.relation = domain.relation;
+    return record;
+}
+
+MapRecord map_record(const TorusMap& result) {
+    MapRecord record = map_record(result.distortion);
+    record.k = result.k;
+    record.K = result.K;
+    record.K_lower = result.K_lower;
+    record.K_upper = result.K_upper;
+    return record;
+}
+
+MapRecord map_record(const HyperbolicMap& result) {
+    MapRecord record = map_record(result.distortion);
+    record.k = result.k;
+    record.K = result.K;
+    record.K_lower = result.K_lower;
+    record.bounds = {{Bound::Kind::reich_strebel, result.K_lower, Bound::Of::extremal, false},
+                     {Bound::Kind::reich_strebel_upper, result.K_upper, Bound::Of::extremal, false}};
+    return record;
+}
+
 SolveRecord solve_record(const ExtremalSphereMap& result, double seconds_total) {
+    return {result.iterations, to_string(result.termination), result.factorizations, seconds_total, {}, false,
+            result.history};
+}
+
+SolveRecord solve_record(const TorusMap& result, double seconds_total) {
+    return {result.factorizations, to_string(result.termination), result.factorizations, seconds_total, {}, false};
+}
+
+SolveRecord solve_record(const HyperbolicMap& result, double seconds_total) {
     return {result.iterations, to_string(result.termination), result.factorizations, seconds_total, {}, false,
             result.history};
 }
@@ -177,6 +218,29 @@ RegistrationRecord registration_record(const LpRegistration& result, double p, c
 RegistrationRecord registration_record(const OpenRegistration& result, const std::string& target,
                                        std::size_t landmarks) {
     return carried_record(result, target, landmarks);
+}
+
+RegistrationRecord registration_record(const HandleRegistration& result, const HyperbolicShape& source,
+                                       const std::string& target) {
+    const HyperbolicMap& map = result.map;
+    RegistrationRecord record = carried_record(map, target, 0);
+    const HyperbolicShape::Differentials& q = source.differentials();
+    record.handles = {map.homology, result.mended,
+                      RegistrationRecord::WithHandles::Hyperbolic{q.space->size(),
+                                                                  map.weighted_mean,
+                                                                  map.weighted_deviation,
+                                                                  map.K_homology,
+                                                                  map.energy,
+                                                                  map.k_in_space,
+                                                                  {q.kernel[q.kernel.size() - 1], q.next}}};
+    record.inverse_k = result.inverse_k;
+    return record;
+}
+
+RegistrationRecord registration_record(const TorusMap& result, const std::string& target) {
+    RegistrationRecord record = carried_record(result, target, 0);
+    record.handles = {result.marking.transpose(), 0, {}};
+    return record;
 }
 
 SolveRecord solve_record(const LeastMaximumMap& result, double seconds_total) {

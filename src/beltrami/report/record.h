@@ -10,7 +10,9 @@
 #include <beltrami/flow/surface_flow.h>
 #include <beltrami/forms/flat_torus.h>
 #include <beltrami/forms/period_matrix.h>
+#include <beltrami/hyperbolic/hyperbolic_domain.h>
 #include <beltrami/registration/register_curves.h>
+#include <beltrami/registration/register_handles.h>
 #include <beltrami/registration/register_open.h>
 #include <beltrami/registration/register_spheres.h>
 #include <beltrami/report/grid_record.h>
@@ -155,6 +157,22 @@ struct TorusRecord {
     int flips = 0;                    ///< of edges to the intrinsic Delaunay triangulation
 };
 
+/// A closed surface of genus 2 or more with its metric of curvature −1.
+struct HyperbolicRecord {
+    double area = 0;      ///< 4π(genus − 1)
+    double residual = 0;  ///< largest angle defect, radians
+    int flips = 0;        ///< of edges to the intrinsic Delaunay triangulation
+    int ptolemy_flips = 0;
+    int inverted = 0;  ///< faces whose geodesic triangle runs the other way
+    struct Generator {
+        double length;           ///< of the closed geodesic
+        Eigen::Matrix2d matrix;  ///< on the upper half-plane
+        std::vector<int> vertices;
+    };
+    std::vector<Generator> generators;
+    double relation = 0;  ///< how far their relation is from the identity
+};
+
 /// A map with a prescribed coefficient.
 struct FlowRecord {
     std::string coefficient;            ///< its file
@@ -218,6 +236,7 @@ struct Record {
     std::optional<SphereRecord> sphere;
     std::optional<PeriodsRecord> periods;
     std::optional<TorusRecord> torus;
+    std::optional<HyperbolicRecord> hyperbolic;
     std::optional<RegistrationRecord> registration;
     std::optional<FlowRecord> flow;
     std::optional<SurfaceFlowRecord> surface_flow;
@@ -248,8 +267,13 @@ SphereRecord sphere_record(const SphereMap& result);
 PeriodsRecord periods_record(const HomologyBasis& loops, const Eigen::MatrixXi& basis, const Eigen::MatrixXcd& periods,
                              double unit = 1);
 TorusRecord torus_record(const FlatTorus& torus);
+HyperbolicRecord hyperbolic_record(const HyperbolicSurface& metric, const HyperbolicDomain& domain);
 MapRecord map_record(const ExtremalSphereMap& result);
+MapRecord map_record(const TorusMap& result);
+MapRecord map_record(const HyperbolicMap& result);
 SolveRecord solve_record(const ExtremalSphereMap& result, double seconds_total);
+SolveRecord solve_record(const TorusMap& result, double seconds_total);
+SolveRecord solve_record(const HyperbolicMap& result, double seconds_total);
 RegistrationRecord registration_record(const SphereRegistration& result, const std::string& target,
                                        std::size_t landmarks);
 SolveRecord solve_record(const SurfaceFlowMap& result, double seconds_total);
@@ -257,6 +281,10 @@ RegistrationRecord registration_record(const LpRegistration& result, double p, c
                                        std::size_t landmarks);
 RegistrationRecord registration_record(const OpenRegistration& result, const std::string& target,
                                        std::size_t landmarks);
+/// @param source of the map
+RegistrationRecord registration_record(const HandleRegistration& result, const HyperbolicShape& source,
+                                       const std::string& target);
+RegistrationRecord registration_record(const TorusMap& result, const std::string& target);
 CornersRecord corners_record(const ExtremalMap& result);
 /// @param source_vertices number of vertices before the split
 SplitRecord split_record(const SplitProblem& split, int source_vertices);

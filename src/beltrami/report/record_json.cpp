@@ -155,6 +155,23 @@ Json to_object(const TorusRecord& torus) {
             {"flips", torus.flips}};
 }
 
+Json to_object(const HyperbolicRecord& hyperbolic) {
+    Json generators = Json::array();
+    for (const HyperbolicRecord::Generator& generator : hyperbolic.generators) {
+        const Eigen::Matrix2d& m = generator.matrix;
+        generators.push_back({{"length", number(generator.length)},
+                              {"matrix", {{number(m(0, 0)), number(m(0, 1))}, {number(m(1, 0)), number(m(1, 1))}}},
+                              {"vertices", generator.vertices}});
+    }
+    return {{"area", number(hyperbolic.area)},
+            {"residual", number(hyperbolic.residual)},
+            {"flips", hyperbolic.flips},
+            {"ptolemy_flips", hyperbolic.ptolemy_flips},
+            {"inverted", hyperbolic.inverted},
+            {"generators", std::move(generators)},
+            {"relation", number(hyperbolic.relation)}};
+}
+
 Json to_object(const RegistrationRecord& registration) {
     Json object = {{"target", registration.target}, {"landmarks", registration.landmarks}};
     if (const auto& sphere = registration.sphere) {
@@ -167,6 +184,18 @@ Json to_object(const RegistrationRecord& registration) {
                         {"curves", lp->curves},
                         {"start_flipped", lp->start_flipped},
                         {"curve_distance", lp->curve_distance}};
+    if (const auto& handles = registration.handles) {
+        object["homology"] = to_rows(handles->homology);
+        object["mended"] = handles->mended;
+        if (const auto& found = handles->hyperbolic) {
+            object["dimension"] = found->dimension;
+            object["by_phi"] = {{"mean", number(found->weighted_mean)}, {"std", number(found->weighted_deviation)}};
+            object["homology_bound"] = number(found->homology_bound);
+            object["energy"] = number(found->energy);
+            object["k_in_space"] = number(found->k_in_space);
+            object["eigenvalues"] = {number(found->eigenvalues[0]), number(found->eigenvalues[1])};
+        }
+    }
     object["flipped_in_space"] = registration.flipped_in_space;
     object["unresolved"] = registration.unresolved;
     put(object, "inverse_k", registration.inverse_k);
@@ -386,6 +415,7 @@ std::string to_json(const Record& record) {
     if (record.sphere) json["sphere"] = to_object(*record.sphere);
     if (record.periods) json["periods"] = to_object(*record.periods);
     if (record.torus) json["torus"] = to_object(*record.torus);
+    if (record.hyperbolic) json["hyperbolic"] = to_object(*record.hyperbolic);
     if (record.registration) json["registration"] = to_object(*record.registration);
     if (record.flow) json["flow"] = to_object(*record.flow);
     if (record.surface_flow) json["surface_flow"] = to_object(*record.surface_flow);

@@ -102,12 +102,43 @@ std::string line_of(const TorusRecord& torus) {
         torus.tau.real() + 0.0, torus.tau.imag(), torus.tau_error, torus.lengths[0], torus.lengths[1]);
 }
 
+std::string lines_of(const HyperbolicRecord& hyperbolic) {
+    std::string text = fmt::format(
+        "a metric of curvature -1, of area {:.6f}: angles are off by {:.1e} at most, the relation of the generators by "
+        "{:.1e}\nlengths of the generators:",
+        hyperbolic.area, hyperbolic.residual, hyperbolic.relation);
+    for (const HyperbolicRecord::Generator& generator : hyperbolic.generators)
+        text += fmt::format(" {:.6f}", generator.length);
+    return text + "\n";
+}
+
+/// Where loops go, and what is known of the class.
+std::string lines_of(const RegistrationRecord::WithHandles& handles) {
+    std::string text = "images of the loops:";
+    for (Eigen::Index i = 0; i < handles.homology.rows(); ++i) {
+        text += i > 0 ? "; " : " ";
+        for (Eigen::Index j = 0; j < handles.homology.cols(); ++j)
+            text += fmt::format("{}{}", j > 0 ? " " : "", handles.homology(i, j));
+    }
+    text += "\n";
+    if (handles.mended > 0)
+        text += fmt::format("around {} faces nearest points did not close up; edges there follow those farther off\n",
+                            handles.mended);
+    if (const auto& found = handles.hyperbolic)
+        text += fmt::format(
+            "weighted by |phi|, |mu| is {:.4f} with a deviation of {:.4f}; energies of harmonic forms ask for "
+            "K = {:.5f} (estimate); the straight faces in space have k = {:.4f}\n",
+            found->weighted_mean, found->weighted_deviation, found->homology_bound, found->k_in_space);
+    return text;
+}
+
 /// How the map sits in space.
 std::string lines_of(const RegistrationRecord& registration) {
     std::string text;
     if (const auto& sphere = registration.sphere; sphere && sphere->dimension > 0)
         text += fmt::format("weighted by |phi|, |mu| is {:.4f} with a deviation of {:.4f}\n", sphere->weighted_mean,
                             sphere->weighted_deviation);
+    if (registration.handles) text += lines_of(*registration.handles);
     text += fmt::format("straight faces in space: {} flipped, {} where the mesh does not resolve the map\n",
                         registration.flipped_in_space, registration.unresolved);
     if (registration.lp && registration.lp->curves > 0)
@@ -190,6 +221,7 @@ std::string to_remarks(const Record& record) {
     if (record.sphere) text += line_of(*record.sphere);
     if (record.periods) text += lines_of(*record.periods);
     if (record.torus) text += line_of(*record.torus);
+    if (record.hyperbolic) text += lines_of(*record.hyperbolic);
     if (record.registration) text += lines_of(*record.registration);
     if (record.flow) text += line_of(record.flow->error);
     if (record.surface_flow && record.surface_flow->coefficient) text += line_of(record.surface_flow->error);
@@ -209,7 +241,8 @@ std::string to_sentence(const Record& record) {
     if (!rigorous && map.K_lower_proved && *map.K_lower_proved > 1)
         proved += fmt::format("; proved: K = {:.3f}", std::floor(*map.K_lower_proved * 1e3) / 1e3);
     // Rounded so that what is said stays true.
-    const char* prescribed = record.onto           ? "loops and marks in this homotopy class"
+    const char* prescribed = record.onto ? "loops and marks in this homotopy class"
+                             : record.registration && record.registration->handles ? "images of loops"
                              : record.registration ? "places of the landmarks in this homotopy class"
                              : record.homotopy     ? "boundary values in this homotopy class"
                                                    : "boundary values";

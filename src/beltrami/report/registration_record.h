@@ -1,8 +1,11 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include <Eigen/Core>
 
 namespace beltrami {
 
@@ -24,6 +27,23 @@ struct RegistrationRecord {
         double curve_distance = 0;          ///< largest of a vertex of a curve from its partner, in the target's units
     };
     std::optional<LeastLp> lp;
+    /// Of closed surfaces with handles.
+    struct WithHandles {
+        /// #loops of the source × those of the target: coefficients of the images in these.
+        Eigen::MatrixXi homology;
+        int mended = 0;  ///< faces around which nearest points did not close up
+        /// Of genus 2 and more.
+        struct Hyperbolic {
+            int dimension = 0;                                 ///< complex, of the differentials
+            double weighted_mean = 0, weighted_deviation = 0;  ///< of |μ| by |φ|
+            double homology_bound = 1;                         ///< of K, from the energies of harmonic forms
+            double energy = 0;                                 ///< of the harmonic map of the class
+            double k_in_space = 0;                             ///< of the straight faces
+            std::array<double, 2> eigenvalues{};               ///< the largest of the kernel, and the next one
+        };
+        std::optional<Hyperbolic> hyperbolic;
+    };
+    std::optional<WithHandles> handles;
     int flipped_in_space = 0;  ///< straight faces between the places
     int unresolved = 0;        ///< faces on which the mesh does not resolve the map
     std::optional<double> inverse_k;

@@ -10,6 +10,7 @@
 
 #include <beltrami/base/error.h>
 #include <beltrami/coefficient/coefficient_step.h>
+#include <beltrami/differentials/holomorphic_products.h>
 #include <beltrami/differentials/hyperbolic_space.h>
 #include <beltrami/hyperbolic/equivariant_map_step.h>
 #include <beltrami/hyperbolic/hyperbolic_places.h>
@@ -58,8 +59,10 @@ HyperbolicShape::HyperbolicShape(const Surface& surface)
 const HyperbolicShape::Differentials& HyperbolicShape::differentials() const {
     if (!differentials_) {
         HyperbolicSpace found = hyperbolic_space(surface_, metric_);
-        differentials_ = {std::make_shared<TabulatedSpace>(std::move(found.space)), found.kernel, found.next,
-                          found.solves};
+        // The kernel tells that the mesh resolves all of them; products are more exact.
+        std::optional<TabulatedSpace> products = holomorphic_products(surface_, period_matrix(surface_, forms_));
+        TabulatedSpace& best = products ? *products : found.space;
+        differentials_ = {std::make_shared<TabulatedSpace>(std::move(best)), found.kernel, found.next, found.solves};
     }
     return *differentials_;
 }
@@ -142,9 +145,13 @@ Distance hyperbolic_distance_of(const HyperbolicMap& there, const HyperbolicMap&
     const auto settled = [](const HyperbolicMap& map) {
         return map.termination == Termination::converged && map.one_to_one();
     };
-    const double a = half_log(there.K), b = half_log(back.K);
-    return {0.5 * (a + b), std::max(half_log(there.K_lower), half_log(back.K_lower)),
-            std::min(half_log(there.K_upper), half_log(back.K_upper)), settled(there) && settled(back)};
+    Distance result{0.5 * (half_log(there.K) + half_log(back.K)),
+                    std::max(half_log(there.K_lower), half_log(back.K_lower)),
+                    std::min(half_log(there.K_upper), half_log(back.K_upper)), settled(there) && settled(back)};
+    // Errors of second order can make the bounds of the two directions cross.
+    if (result.lower > result.upper) std::swap(result.lower, result.upper);
+    result.distance = std::clamp(result.distance, result.lower, result.upper);
+    return result;
 }
 
 }  // namespace beltrami

@@ -30,7 +30,9 @@ class HyperbolicShape {
     /// What a class of maps onto it is told by.
     EdgeGroup group() const { return {metric_.original, metric_.steps, surface_.topology, forms_.homology}; }
 
-    /// The holomorphic quadratic differentials (hyperbolic_space.h); worked out when first asked for, by one thread.
+    /// The holomorphic quadratic differentials: products of 1-forms where these span them (holomorphic_products.h),
+    /// else the kernel of ∂̄, which tells in any case that none is missing (hyperbolic_space.h). Worked out when first
+    /// asked for, by one thread.
     struct Differentials {
         std::shared_ptr<const DifferentialSpace> space;
         Eigen::VectorXd kernel;  ///< 3g − 3 eigenvalues that are 0 but for the mesh

@@ -46,8 +46,8 @@ TEST(HyperbolicMap, AffineMapsOfTheLAreExact) {
             before[i] = error;
         }
     }
-    EXPECT_LT(before[0], 2e-3);
-    EXPECT_LT(before[1], 7.2e-3);
+    EXPECT_LT(before[0], 1.0e-3);
+    EXPECT_LT(before[1], 4.8e-3);
 }
 
 /// The Dehn twist about the lower cylinder, of two squares, and the square of that about the upper one: of the affine
@@ -70,7 +70,7 @@ TEST(HyperbolicMap, MultiTwistOfTheL) {
         }
         before = error;
     }
-    EXPECT_LT(before, 1.2e-2);
+    EXPECT_LT(before, 8.5e-3);
 }
 
 TEST(HyperbolicMap, HalfTranslationSurfaces) {

@@ -1,0 +1,159 @@
+#include <beltrami/hyperbolic/hyperbolic_domain.h>
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <queue>
+#include <tuple>
+
+#include <beltrami/base/disjoint_sets.h>
+#include <beltrami/hyperbolic/fundamental_group.h>
+
+namespace beltrami {
+
+namespace {
+
+constexpr double kSamePlace = 1e-6;  // hyperbolic distance; others differ by a deck transformation
+
+int next(int h) {
+    return IntrinsicTriangulation::next(h);
+}
+int previous(int h) {
+    return IntrinsicTriangulation::previous(h);
+}
+
+/// Frames of all corners of all triangles in the disk.
+std::vector<DiskIsometry> develop(const HyperbolicSurface& surface) {
+    const IntrinsicTriangulation& triangulation = surface.original;
+    std::vector<DiskIsometry> frames(surface.steps.size());
+    std::vector<char> placed(static_cast<std::size_t>(triangulation.triangle_count()), 0);
+    using Entry = std::tuple<double, int>;  // distance of the middle beyond a half-edge from 0
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    const auto beyond = [&](int h) {  // the frame of the apex of the neighbour
+        const int g = triangulation.twin(h);
+        return (frames[h] * surface.step(next(g))).normalized();
+    };
+    const auto push = [&](int h) {
+        const Complex sum = frames[h].place() + frames[next(h)].place() + beyond(h).place();
+        queue.emplace(std::abs(sum) / 3, h);
+    };
+    frames[1] = surface.step(0);
+    frames[2] = surface.step(2).inverse();
+    placed[0] = 1;
+    for (int k = 0; k < 3; ++k) push(k);
+    while (!queue.empty()) {
+        const int h = std::get<1>(queue.top()), g = triangulation.twin(h);
+        queue.pop();
+        if (placed[g / 3]) continue;
+        placed[g / 3] = 1;
+        frames[g] = frames[next(h)];
+        frames[next(g)] = frames[h];
+        frames[previous(g)] = beyond(h);
+        for (const int other : {next(g), previous(g)}) push(other);
+    }
+    return frames;
+}
+
+/// The half-edge of a triangle that begins at every corner of a face, whose quads are two triangles (#corners).
+std::vector<int> halfedges_of_corners(const Surface& surface, const HyperbolicSurface& metric) {
+    const FaceList& faces = surface.mesh.faces;
+    std::vector<int> result(static_cast<std::size_t>(faces.corner_count()), -1);
+    for (int h = metric.original.halfedge_count() - 1; h >= 0; --h) {
+        const int f = metric.metric.faces[static_cast<std::size_t>(h / 3)];
+        for (int i = 0; i < faces.degree(f); ++i)
+            if (faces[f][i] == metric.original.tail(h)) result[faces.first_corner(f) + i] = h;
+    }
+    return result;
+}
+
+TextureCoordinates layout_of(const Surface& surface, const HyperbolicSurface& metric,
+                             const std::vector<DiskIsometry>& frames) {
+    const IntrinsicTriangulation& triangulation = metric.original;
+    DisjointSets corners(triangulation.halfedge_count());
+    const auto same = [&](int a, int b) { return (frames[a].inverse() * frames[b]).distance() < kSamePlace; };
+    for (int h = 0; h < triangulation.halfedge_count(); ++h) {
+        const int g = triangulation.twin(h);
+        if (same(h, next(g)) && same(next(h), g)) {
+            corners.join(h, next(g));
+            corners.join(next(h), g);
+        }
+    }
+    TextureCoordinates layout;
+    std::map<int, int> numbers;
+    for (const int h : halfedges_of_corners(surface, metric))
+        layout.corners.push_back(numbers.try_emplace(corners.find(h), static_cast<int>(numbers.size())).first->second);
+    layout.points.resize(static_cast<Eigen::Index>(numbers.size()), 2);
+    for (const auto& [corner, number] : numbers)
+        layout.points.row(number) << frames[corner].place().real(), frames[corner].place().imag();
+    return layout;
+}
+
+/// The tree of shortest paths from the root along edges and, across the others and the diagonals of quads, that of the
+/// longest loops.
+CutTree short_loops(const Topology& topology, const HyperbolicSurface& surface, int root) {
+    const IntrinsicTriangulation& triangulation = surface.original;
+    const auto n = static_cast<std::size_t>(triangulation.vertex_count());
+    std::vector<std::vector<int>> from(n);
+    const auto is_edge = [&](int h) {
+        return edge_between(topology, triangulation.tail(h), triangulation.head(h)) >= 0;
+    };
+    for (int h = 0; h < triangulation.halfedge_count(); ++h)
+        if (is_edge(h)) from[triangulation.tail(h)].push_back(h);
+    std::vector<double> distance(n, std::numeric_limits<double>::infinity());
+    std::vector<int> arrived_by(n, -1), tree;
+    using Entry = std::tuple<double, int>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    distance[root] = 0;
+    queue.emplace(0, root);
+    while (!queue.empty()) {
+        const auto [d, v] = queue.top();
+        queue.pop();
+        if (d > distance[v]) continue;
+        for (const int h : from[v]) {
+            const int w = triangulation.head(h);
+            const double longer = d + surface.step(h).distance();
+            if (!(longer < distance[w])) continue;
+            distance[w] = longer;
+            arrived_by[w] = h;
+            queue.emplace(longer, w);
+        }
+    }
+    for (const int h : arrived_by)
+        if (h >= 0) tree.push_back(h);
+    std::vector<double> costs(surface.steps.size());
+    for (int h = 0; h < triangulation.halfedge_count(); ++h)
+        costs[h] = is_edge(h)
+                       ? distance[triangulation.tail(h)] + surface.step(h).distance() + distance[triangulation.head(h)]
+                       : std::numeric_limits<double>::infinity();
+    return cut_tree(triangulation, root, costs, tree);
+}
+
+}  // namespace
+
+HyperbolicDomain hyperbolic_domain(const Surface& surface, const HyperbolicSurface& metric) {
+    const FaceList& faces = surface.mesh.faces;
+    HyperbolicDomain domain;
+    domain.layout = layout_of(surface, metric, develop(metric));
+    Eigen::VectorXcd corners(faces.corner_count());
+    for (Eigen::Index c = 0; c < corners.size(); ++c) {
+        const auto point = domain.layout.points.row(domain.layout.corners[static_cast<std::size_t>(c)]);
+        corners[c] = {point[0], point[1]};
+    }
+    domain.distortion = distortion(per_corner(surface.operators, faces), corners);
+
+    const CutTree tree = short_loops(surface.topology, metric, faces.vertices()[0]);
+    domain.paths = generator_paths(metric.original, tree);
+    domain.generators = generator_isometries(metric.original, tree, metric.steps);
+    for (const DiskIsometry& generator : domain.generators) domain.lengths.push_back(generator.translation_length());
+    DiskIsometry relation;
+    for (const Letter& letter : boundary_word(metric.original, tree)) {
+        const DiskIsometry& generator = domain.generators[static_cast<std::size_t>(letter.generator)];
+        relation = relation * (letter.inverse ? generator.inverse() : generator);
+    }
+    domain.relation = relation.from_identity();
+    return domain;
+}
+
+}  // namespace beltrami

@@ -1,0 +1,184 @@
+#include <beltrami/registration/register_handles.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include <Eigen/LU>
+
+#include <beltrami/base/error.h>
+#include <beltrami/forms/delaunay_forms.h>
+
+namespace beltrami {
+
+namespace {
+
+/// The class that is asked for.
+Marking choose(const Surface& source, const IntrinsicTriangulation& triangulation, const Mesh& target,
+               const FaceList& triangles, const EdgeGroup& group, const HandleMarking& wanted) {
+    Marking marking;
+    if (!wanted.paths.empty() || !wanted.images.empty()) {
+        if (wanted.start)
+            throw Error(Cause::bad_option, "a class is told by loops or by a start, not by both", "give one of them");
+        marking = marking_by_loops(source, triangulation, group, wanted.paths, wanted.images);
+    } else {
+        const Positions near = wanted.start ? *wanted.start : aligned(source.mesh, target, wanted.alignment);
+        marking = marking_by_vertices(source, triangulation, group, nearest_vertices(target, triangles, near));
+    }
+    for (const HandleMarking::Twist& twist : wanted.twists)
+        marking.map = twisted(source, triangulation, std::move(marking.map), twist.path, twist.turns);
+    return marking;
+}
+
+IntrinsicTriangulation triangulation_of(const Surface& surface, const FlatTorus& torus) {
+    const TriangleMetric& metric = torus.forms->metric;
+    return {metric.triangles, surface.mesh.vertex_count(), metric.log_lengths};
+}
+
+/// Where the generators of a torus go, from the periods of the target's forms around the images of the source's loops.
+TorusMarking marking_of_periods(const FlatTorus& source, const FlatTorus& target, const Eigen::MatrixXi& periods) {
+    const Eigen::Matrix2d to = target.generators.cast<double>();
+    const Eigen::Matrix2d images = periods.transpose().cast<double>() * source.generators.cast<double>();
+    const Eigen::Matrix2d in_generators = to.inverse() * images;
+    return in_generators.array().round().matrix().cast<int>();
+}
+
+template <class Action>
+void naming(const std::string& name, const std::vector<int>& shapes, const Action& action) {
+    try {
+        action();
+    } catch (const Error& error) {
+        if (error.cause() == Cause::cancelled) throw;
+        throw Error(error.cause(), name + ": " + error.what(), {}, {Things::shapes, shapes});
+    }
+}
+
+std::vector<int> nearest_vertices(const std::vector<MeshPoint>& places) {
+    std::vector<int> result;
+    result.reserve(places.size());
+    for (const MeshPoint& place : places) {
+        const auto largest = std::max_element(place.barycentric.begin(), place.barycentric.end());
+        result.push_back(place.vertices[static_cast<std::size_t>(largest - place.barycentric.begin())]);
+    }
+    return result;
+}
+
+/// Maps between every two of some shapes, as the vertices nearest to the images of vertices.
+struct PairwiseMaps {
+    std::vector<std::unique_ptr<const HyperbolicShape>> shapes;
+    std::map<std::array<int, 2>, std::vector<int>> images;
+
+    std::vector<int> nearest(int i, int j, Alignment alignment) const {
+        const Mesh& target = shapes[j]->surface().mesh;
+        return nearest_vertices(target, shapes[j]->metric().metric.triangles,
+                                aligned(shapes[i]->surface().mesh, target, alignment));
+    }
+    /// Over a third shape to which and from which maps are known; empty: there is none.
+    std::vector<int> over_another(int i, int j) const {
+        for (std::size_t s = 0; s < shapes.size(); ++s) {
+            const auto k = static_cast<int>(s);
+            const auto to = images.find({i, k}), from = images.find({k, j});
+            if (to == images.end() || from == images.end()) continue;
+            std::vector<int> result;
+            result.reserve(to->second.size());
+            for (const int v : to->second) result.push_back(from->second[static_cast<std::size_t>(v)]);
+            return result;
+        }
+        return {};
+    }
+    Distance distance(int i, int j, const std::vector<int>& start) {
+        const HyperbolicShape &a = *shapes[i], &b = *shapes[j];
+        Marking marking = marking_by_vertices(a.surface(), a.metric().original, b.group(), start);
+        const HyperbolicMap there = hyperbolic_map(a, b, std::move(marking.map));
+        const HyperbolicMap back = hyperbolic_map(b, a, inverse_marking(a, b, there).map);
+        images[{i, j}] = nearest_vertices(there.places);
+        images[{j, i}] = nearest_vertices(back.places);
+        return hyperbolic_distance_of(there, back);
+    }
+};
+
+}  // namespace
+
+HandleRegistration register_handles(const HyperbolicShape& source, const HyperbolicShape& target,
+                                    const HandleMarking& marking, const HyperbolicMapOptions& options) {
+    Marking chosen = choose(source.surface(), source.metric().original, target.surface().mesh,
+                            target.metric().metric.triangles, target.group(), marking);
+    HandleRegistration result{hyperbolic_map(source, target, std::move(chosen.map), options), chosen.mended, {}};
+    try {
+        const Marking back = inverse_marking(source, target, result.map);
+        result.inverse_k = hyperbolic_map(target, source, back.map, options).k;
+    } catch (const Error& error) {
+        if (error.cause() == Cause::cancelled) throw;
+    }
+    return result;
+}
+
+TorusMap register_tori(const Surface& source, const Surface& target, const std::optional<HandleMarking>& marking) {
+    const FlatTorus from = flat_torus(source), to = flat_torus(target);
+    TorusMapOptions options;
+    if (marking) {
+        const IntrinsicTriangulation here = triangulation_of(source, from), there = triangulation_of(target, to);
+        const std::vector<DiskIsometry> steps(static_cast<std::size_t>(there.halfedge_count()));
+        const EdgeGroup group{there, steps, target.topology, to.homology};
+        const Marking chosen = choose(source, here, target.mesh, to.forms->metric.triangles, group, *marking);
+        options.marking =
+            marking_of_periods(from, to, periods_of_images(source.topology, chosen.map, from.homology.loops));
+        const int first = source.mesh.faces.vertices()[0];
+        options.vertices = {first, chosen.map.bases[static_cast<std::size_t>(first)]};
+    }
+    return torus_map(source, from, target, to, options);
+}
+
+DistanceMatrix handle_distances(const std::vector<Surface>& surfaces, Alignment alignment,
+                                const std::function<bool(int done, int all)>& progress,
+                                const std::vector<std::string>& names) {
+    const auto n = static_cast<int>(surfaces.size());
+    if (n < 2) throw Error(Cause::bad_option, "a distance needs two shapes");
+    const auto name = [&](int i) { return names.empty() ? "shape " + std::to_string(i) : names[i]; };
+    PairwiseMaps maps;
+    for (int i = 0; i < n; ++i)
+        naming(name(i), {i}, [&] { maps.shapes.push_back(std::make_unique<const HyperbolicShape>(surfaces[i])); });
+    DistanceMatrix result;
+    result.distance = result.lower = result.upper = Eigen::MatrixXd::Zero(n, n);
+    std::vector<std::array<int, 2>> open;
+    for (int i = 0; i < n; ++i)
+        for (int j = i + 1; j < n; ++j) open.push_back({i, j});
+    const auto all = static_cast<int>(open.size());
+    int done = 0;
+    const auto settle = [&](int i, int j, const std::vector<int>& images) {
+        naming(name(i) + " and " + name(j), {i, j}, [&] {
+            const Distance d = maps.distance(i, j, images);
+            result.distance(i, j) = result.distance(j, i) = d.distance;
+            result.lower(i, j) = result.lower(j, i) = d.lower;
+            result.upper(i, j) = result.upper(j, i) = d.upper;
+            if (!d.settled) result.unsettled.push_back({i, j});
+        });
+        if (progress && !progress(++done, all)) throw Error(Cause::cancelled, "cancelled");
+    };
+    // Where nearest points contradict each other the way leads over a third shape, if it can.
+    std::vector<std::array<int, 2>> contradictory;
+    std::optional<Error> first;
+    for (const auto& [i, j] : open) try {
+            settle(i, j, maps.nearest(i, j, alignment));
+        } catch (const Error& error) {
+            if (error.cause() != Cause::bad_option) throw;
+            if (!first) first = error;
+            contradictory.push_back({i, j});
+        }
+    while (!contradictory.empty()) {
+        const std::size_t before = contradictory.size();
+        std::erase_if(contradictory, [&](const std::array<int, 2>& pair) {
+            const std::vector<int> images = maps.over_another(pair[0], pair[1]);
+            if (images.empty()) return false;
+            settle(pair[0], pair[1], images);
+            return true;
+        });
+        if (contradictory.size() == before) throw *first;
+    }
+    std::sort(result.unsettled.begin(), result.unsettled.end());
+    return result;
+}
+
+}  // namespace beltrami

@@ -1,0 +1,122 @@
+"""beltrami register and distance of closed surfaces with handles."""
+
+import math
+import pathlib
+import unittest
+
+import numpy as np
+
+from support import MESHES, Command, read_obj, write_obj
+from test_tori import torus
+
+CASES = MESHES.parent / "cases"
+
+
+class RegisterTori(Command):
+    def tori(self):
+        self.source, self.faces = torus(2, 1, 40, 20)
+        self.target, _ = torus(math.sqrt(2), 1, 36, 28)
+        write_obj(self.path("a.obj"), self.source, self.faces)
+        write_obj(self.path("b.obj"), self.target, torus(math.sqrt(2), 1, 36, 28)[1])
+
+    def register(self, *arguments, code=0):
+        return self.record("register", self.path("a.obj"), self.path("b.obj"), "-o", self.path("out.obj"), *arguments,
+                           code=code)
+
+    def write_path(self, name, path):
+        pathlib.Path(self.path(name)).write_text(" ".join(map(str, path)) + "\n")
+        return self.path(name)
+
+    def loops(self, turned):
+        """The parallel and the meridian of both tori, the meridian of the target turned along the parallel."""
+        parallel, meridian = [i * 28 for i in range(36)], list(range(28))
+        image = parallel + [0] + meridian[1:] if turned else meridian
+        return ("--loop", self.write_path("ap.txt", [i * 20 for i in range(40)]), self.write_path("bp.txt", parallel),
+                "--loop", self.write_path("am.txt", range(20)), self.write_path("bm.txt", image))
+
+    def test_nearest_points_tell_the_class(self):
+        self.tori()
+        record = self.register("--places", self.path("places.txt"))
+        self.assertAlmostEqual(record["map"]["K"], math.sqrt(3), delta=1e-2)
+        self.assertLessEqual(record["map"]["K_lower"], record["map"]["K"])
+        self.assertEqual(record["map"]["flipped"], 0)
+        self.assertEqual(abs(round(np.linalg.det(record["registration"]["homology"]))), 1)
+        out, _, faces = read_obj(self.path("out.obj"))
+        np.testing.assert_array_equal(faces, self.faces)
+        from_circle = np.hypot(np.hypot(out[:, 0], out[:, 1]) - math.sqrt(2), out[:, 2])
+        np.testing.assert_allclose(from_circle, 1, atol=0.03)
+        self.assertEqual(len(np.loadtxt(self.path("places.txt"))), len(self.source))
+
+    def test_loops_twists_and_the_least_of_all(self):
+        self.tori()
+        natural = self.register(*self.loops(False))["map"]["K"]
+        self.assertAlmostEqual(natural, math.sqrt(3), delta=1e-2)
+        twisted = self.register(*self.loops(True))["map"]["K"]
+        self.assertAlmostEqual(twisted, 3.776668, delta=4e-2)
+        # A Dehn twist about the parallel takes the meridian to meridian ± parallel: mirror images of each other.
+        for turns in (1, -1):
+            by_twist = self.register("--twist", f"{turns}:{self.path('ap.txt')}")["map"]["K"]
+            self.assertAlmostEqual(by_twist, twisted, delta=1e-9)
+        least = self.register("--marking", "search")["map"]["K"]
+        self.assertAlmostEqual(least, natural, delta=1e-9)
+
+    def test_what_contradicts_itself_is_refused(self):
+        self.tori()
+        loops = self.loops(False)
+        exchanged = (loops[0], loops[1], loops[5], loops[3], loops[4], loops[2])
+        text = self.run_command("register", self.path("a.obj"), self.path("b.obj"), "-o", self.path("out.obj"),
+                                *exchanged, code=2).stderr
+        self.assertIn("determinant", text)
+        for arguments in (("--twist", "ap.txt"), ("--twist", f"0:{self.path('ap.txt')}"), loops[:3]):
+            self.run_command("register", self.path("a.obj"), self.path("b.obj"), "-o", self.path("out.obj"), *arguments,
+                             code=2)
+        self.write_path("pairs.txt", [0, 0])
+        self.run_command("register", self.path("a.obj"), self.path("b.obj"), "-o", self.path("out.obj"), "--landmarks",
+                         self.path("pairs.txt"), code=2)
+
+
+@unittest.skipUnless((CASES / "double_torus_a.obj").exists(), "the double tori are not here")
+class RegisterDoubleTori(Command):
+    def register(self, target, *arguments, source="double_torus_a.obj"):
+        return self.record("register", CASES / source, CASES / target, "-o", self.path("out.ply"), *arguments)
+
+    def test_deformed_double_tori(self):
+        for target, k, arguments in (("double_torus_13.obj", 0.0979, ()), ("double_torus_055.obj", 0.1937, ()),
+                                     ("double_torus_22.obj", 0.2945,
+                                      ("--start-map", CASES / "double_torus_a_near_22.obj"))):
+            record = self.register(target, *arguments)
+            registration = record["registration"]
+            self.assertAlmostEqual(record["map"]["k"], k, delta=7e-4)
+            self.assertAlmostEqual(registration["inverse_k"], record["map"]["k"], delta=3e-4)
+            self.assertEqual(record["solve"]["termination"], "converged")
+            self.assertEqual(record["map"]["flipped"], 0)
+            self.assertEqual(registration["flipped_in_space"], 0)
+            self.assertEqual(registration["dimension"], 3)
+            self.assertLess(registration["eigenvalues"][0], 0.01)
+            self.assertAlmostEqual(registration["eigenvalues"][1], 0.5, delta=0.02)
+            self.assertLess(registration["homology_bound"], record["map"]["K"])
+
+    def test_points_that_contradict_each_other_are_refused(self):
+        text = self.run_command("register", CASES / "double_torus_a.obj", CASES / "double_torus_22.obj", "-o",
+                                self.path("out.ply"), code=2).stderr
+        self.assertIn("defect", text)
+        self.assert_nothing_left()
+
+    def test_twist_about_a_short_loop(self):
+        self.record("uniformize", CASES / "double_torus_a.obj", "-o", self.path("cut.obj"), "--loops", self.path("loop"))
+        plus = self.register("double_torus_13.obj", "--twist", f"1:{self.path('loop0.txt')}")
+        minus = self.register("double_torus_13.obj", "--twist", f"-1:{self.path('loop0.txt')}")
+        self.assertAlmostEqual(plus["map"]["k"], minus["map"]["k"], delta=2e-3)
+        self.assertGreater(plus["map"]["k"], 0.15)
+
+    def test_distances_cluster(self):
+        meshes = [CASES / f"double_torus_{name}.obj" for name in ("a", "13", "055")]
+        record = self.record("distance", *meshes)["distances"]
+        d = np.array(record["distance"])
+        self.assertAlmostEqual(math.tanh(d[0, 1]), 0.0979, delta=7e-4)
+        self.assertAlmostEqual(math.tanh(d[0, 2]), 0.1937, delta=7e-4)
+        self.assertEqual(record["merges"][0]["clusters"], [0, 1])
+
+
+if __name__ == "__main__":
+    unittest.main()
