@@ -161,8 +161,9 @@ MapRecord map_record(const HyperbolicMap& result) {
     record.k = result.k;
     record.K = result.K;
     record.K_lower = result.K_lower;
-    record.bounds = {{Bound::Kind::reich_strebel, result.K_lower, Bound::Of::extremal, false},
-                     {Bound::Kind::reich_strebel_upper, result.K_upper, Bound::Of::extremal, false}};
+    if (std::isfinite(result.K_upper))
+        record.bounds = {{Bound::Kind::reich_strebel, result.K_lower, Bound::Of::extremal, false},
+                         {Bound::Kind::reich_strebel_upper, result.K_upper, Bound::Of::extremal, false}};
     return record;
 }
 

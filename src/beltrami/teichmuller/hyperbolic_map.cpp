@@ -35,7 +35,7 @@ HamiltonIteration::Options iteration_options(const HyperbolicMapOptions& options
 
 void record_bounds(const Surface& source, HyperbolicMap& result) {
     const ReichStrebel integrals = reich_strebel(source, result.differential, result.distortion.mu);
-    if (!integrals.valid) return;
+    if (!integrals.valid) return;  // faces are flipped
     result.K_lower = std::clamp(integrals.lower, 1.0, result.K);
     result.K_upper = std::max(integrals.upper, result.K);
 }

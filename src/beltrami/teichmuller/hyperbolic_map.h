@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -58,8 +59,9 @@ struct HyperbolicMapOptions : IterationOptions {
 /// base is that of the source's faces onto geodesic triangles of the target's hyperbolic metric; `map` is empty.
 struct HyperbolicMap : MapResult, CarriedSurface {
     double k = 0, K = 1;  ///< of the last c-step: estimates of k* and K*
-    /// 1/I⁻ and I⁺ of the Reich-Strebel inequality: estimates of bounds, as φ is holomorphic up to the mesh.
-    double K_lower = 1, K_upper = 1;
+    /// 1/I⁻ and I⁺ of the Reich-Strebel inequality: estimates of bounds, as φ is holomorphic up to the mesh. 1 and
+    /// infinite where faces are flipped.
+    double K_lower = 1, K_upper = std::numeric_limits<double>::infinity();
     /// No map in the class has less: by this factor it changes the energy of some harmonic form. Of the two polyhedra
     /// up to the mesh; where K is below, the mesh does not resolve it.
     double K_homology = 1;
