@@ -260,6 +260,7 @@ std::vector<int> nearest_vertices(const Mesh& target, const FaceList& faces, con
 
 Marking marking_by_vertices(const Surface& source, const IntrinsicTriangulation& triangulation, const EdgeGroup& target,
                             const std::vector<int>& images) {
+    require_triangles(source);
     TargetEdges edges(target);
     Marking marking{at_vertices(images, source.topology.edge_count(), edges.size())};
     for (int e = 0; e < source.topology.edge_count(); ++e) {
@@ -285,6 +286,7 @@ Marking marking_by_vertices(const Surface& source, const IntrinsicTriangulation&
 
 Marking marking_by_loops(const Surface& source, const IntrinsicTriangulation& triangulation, const EdgeGroup& target,
                          const std::vector<std::vector<int>>& paths, const std::vector<std::vector<int>>& images) {
+    require_triangles(source);
     const int genus = source.topology.genus;
     const auto wanted = 2 * static_cast<std::size_t>(genus);
     if (paths.size() != wanted || images.size() != wanted)
@@ -320,6 +322,7 @@ Marking marking_by_loops(const Surface& source, const IntrinsicTriangulation& tr
 
 EquivariantMap twisted(const Surface& source, const IntrinsicTriangulation& triangulation, EquivariantMap map,
                        const std::vector<int>& path, int turns) {
+    require_triangles(source);
     const std::vector<int> along = halfedges_along(triangulation, path);
     std::vector<char> visited(static_cast<std::size_t>(triangulation.vertex_count()), 0);
     for (const int v : path)

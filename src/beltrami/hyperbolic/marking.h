@@ -31,7 +31,8 @@ struct Marking {
 /// those farther off say.
 /// @param source of triangles, @param triangulation of it
 /// @param images #V vertices of the target
-/// @throw Error bad_option where the images contradict each other, naming the faces and saying the defect
+/// @throw Error bad_mesh for faces of the source that are not triangles; bad_option where the images contradict each
+///        other, naming the faces and saying the defect
 Marking marking_by_vertices(const Surface& source, const IntrinsicTriangulation& triangulation, const EdgeGroup& target,
                             const std::vector<int>& images);
 
