@@ -36,15 +36,6 @@ std::optional<Surface> split_surface(const std::optional<SplitProblem>& split) {
     return surface_of(split->mesh, split->metric);
 }
 
-/// What an extremal map says beyond its numbers.
-void record_findings(const ExtremalMap& result, const Surface& source, Record& record) {
-    if (!result.homotopy.holes.empty()) record.homotopy = result.homotopy;
-    record.corners = corners_record(result);
-    record.outline = {result.in_chart, result.slack, result.noise};
-    if (result.split) record.split = split_record(*result.split, source.mesh.vertex_count());
-    append(record.warnings, result.warnings);
-}
-
 /// The map and what belongs to it, after the pages.
 void take_map(ExtremalMap result, MethodResult& done) {
     done.map = std::move(result.map);
@@ -58,7 +49,7 @@ void take_map(ExtremalMap result, MethodResult& done) {
 MethodResult finished(ExtremalMap result, const Surface& source, double start, Record& record) {
     record.solve = solve_record(result, seconds() - start);
     record.map = map_record(result);
-    record_findings(result, source, record);
+    record_findings(result, source.mesh.vertex_count(), record);
     MethodResult done;
     done.split = split_surface(result.split);
     if (result.split) done.face_parents = result.split->face_parents;
@@ -127,7 +118,7 @@ MethodResult finished(LeastMaximumMap result, double power, const Surface& sourc
         ExtremalMap start_map = *result.extremal;
         start_map.homotopy = result.homotopy;
         start_map.warnings.clear();  // they speak of the start
-        record_findings(start_map, source, record);
+        record_findings(start_map, source.mesh.vertex_count(), record);
     } else if (result.split) {
         record.split = split_record(*result.split, source.mesh.vertex_count());
     }

@@ -8,6 +8,8 @@
 #include <beltrami/applications/reached_corners.h>
 #include <beltrami/base/effort.h>
 #include <beltrami/base/error.h>
+#include <beltrami/base/parallel.h>
+#include <beltrami/base/stop.h>
 #include <beltrami/base/warning.h>
 #include <beltrami/baselines/baseline.h>
 #include <beltrami/certificate/certificate.h>

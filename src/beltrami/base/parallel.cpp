@@ -10,6 +10,7 @@
 #include <utility>
 
 #include <beltrami/base/error.h>
+#include <beltrami/base/stop.h>
 
 namespace beltrami {
 namespace {
@@ -140,6 +141,7 @@ int thread_count() {
 
 void parallel_for(int begin, int end, const std::function<void(int, int)>& body, int grain) {
     if (end <= begin) return;
+    stop_if_wanted();
     grain = std::max(grain, 1);
     const int chunks = (end - begin - 1) / grain + 1;
     pool().run(chunks, [&](int chunk) {

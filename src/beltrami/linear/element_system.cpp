@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include <beltrami/base/stop.h>
 #include <beltrami/linear/symmetric_solver.h>
 
 namespace beltrami {
@@ -75,17 +76,20 @@ void ElementSystem::set(const Values& a, double factor, const Values& b) {
 }
 
 void ElementSystem::factorize() {
+    stop_if_wanted();
     solver_->factorize();
     factorized_ = true;
 }
 
 Eigen::MatrixXd ElementSystem::solve(const Eigen::MatrixXd& rhs) const {
     if (!factorized_) throw std::logic_error("ElementSystem::solve before factorize");
+    stop_if_wanted();
     return solver_->solve(rhs);
 }
 
 bool ElementSystem::solve_near(const Eigen::MatrixXd& rhs, Eigen::MatrixXd& solution, double tolerance,
                                int max_steps) const {
+    stop_if_wanted();
     return solver_->solve_near(rhs, solution, tolerance, max_steps);
 }
 

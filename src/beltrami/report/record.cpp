@@ -283,4 +283,12 @@ SplitRecord split_record(const SplitProblem& split, int source_vertices) {
     return record;
 }
 
+void record_findings(const ExtremalMap& result, int source_vertices, Record& record) {
+    if (!result.homotopy.holes.empty()) record.homotopy = result.homotopy;
+    record.corners = corners_record(result);
+    record.outline = {result.in_chart, result.slack, result.noise};
+    if (result.split) record.split = split_record(*result.split, source_vertices);
+    append(record.warnings, result.warnings);
+}
+
 }  // namespace beltrami

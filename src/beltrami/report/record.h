@@ -288,5 +288,8 @@ RegistrationRecord registration_record(const TorusMap& result, const std::string
 CornersRecord corners_record(const ExtremalMap& result);
 /// @param source_vertices number of vertices before the split
 SplitRecord split_record(const SplitProblem& split, int source_vertices);
+/// What an extremal map says beyond its numbers: class, corners, outline, split and warnings.
+/// @param source_vertices number of vertices before the split
+void record_findings(const ExtremalMap& result, int source_vertices, Record& record);
 
 }  // namespace beltrami

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+/// The rooms of the module, each with functions and classes of one subject.
+namespace beltrami::python {
+
+void bind_surface(pybind11::module_& m);
+void bind_mesh(pybind11::module_& m);
+void bind_edits(pybind11::module_& m);
+void bind_files(pybind11::module_& m);
+void bind_generate(pybind11::module_& m);
+void bind_targets(pybind11::module_& m);
+void bind_constraints(pybind11::module_& m);
+void bind_boundary(pybind11::module_& m);
+void bind_maps(pybind11::module_& m);
+void bind_extremal(pybind11::module_& m);
+void bind_solver(pybind11::module_& m);
+void bind_baselines(pybind11::module_& m);
+void bind_distortion(pybind11::module_& m);
+void bind_differentials(pybind11::module_& m);
+void bind_charts(pybind11::module_& m);
+void bind_flow(pybind11::module_& m);
+void bind_distance(pybind11::module_& m);
+void bind_grids(pybind11::module_& m);
+void bind_homotopy(pybind11::module_& m);
+void bind_sphere(pybind11::module_& m);
+void bind_tori(pybind11::module_& m);
+void bind_registration(pybind11::module_& m);
+
+}  // namespace beltrami::python
