@@ -1,10 +1,12 @@
 """The module's shared object is built by CMake; the rest of the wheel is setuptools' as pyproject.toml says.
 
-BELTRAMI_BUILD names a build folder of CMake to be used, so that nothing is compiled twice.
+BELTRAMI_BUILD names the build folder of CMake; where it does not, that of `./run build` is used if it is there, so that
+nothing is compiled twice and nothing fetched. CMAKE_ARGS has further options for CMake.
 """
 
 import os
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -23,8 +25,9 @@ def version() -> str:
 
 class CMakeBuild(build_ext):
     def build_extension(self, extension: Extension) -> None:
-        folder = Path(os.environ.get("BELTRAMI_BUILD", HERE / "build" / "wheel")).resolve()
-        options = ["-DBELTRAMI_PYTHON=ON", f"-DPYTHON_EXECUTABLE={sys.executable}"]
+        built_before = (HERE / "build" / "build.ninja").exists()
+        folder = Path(os.environ.get("BELTRAMI_BUILD", HERE / "build" if built_before else HERE / "build" / "wheel")).resolve()
+        options = shlex.split(os.environ.get("CMAKE_ARGS", "")) + ["-DBELTRAMI_PYTHON=ON", f"-DPYTHON_EXECUTABLE={sys.executable}"]
         if not (folder / "build.ninja").exists():
             options += ["-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DBELTRAMI_TESTS=OFF", "-DBELTRAMI_EXAMPLES=OFF"]
         subprocess.run(["cmake", "-S", str(HERE), "-B", str(folder), *options], check=True)

@@ -104,7 +104,8 @@ int main(int argc, char** argv) {
                     "  beltrami uniformize holes.obj -o circles.obj   # circle domain and moduli\n"
                     "  beltrami flow face.obj --mu mu.txt --boundary disk -o out.obj   # a given mu\n"
                     "  beltrami apply out.obj points.txt -o images.txt   # a map, or its inverse, at any points\n"
-                    "  beltrami register a.obj b.obj --landmarks pairs.txt -o carried.obj   # closed, genus 0\n\n") +
+                    "  beltrami register a.obj b.obj --landmarks pairs.txt -o carried.obj   # closed, genus 0\n"
+                    "  beltrami batch jobs.jsonl -o results   # many commands, resumable\n\n") +
         cli::kExitCodes);
     std::vector<std::pair<CLI::App*, std::unique_ptr<cli::Command>>> commands;
     const auto add = [&](std::unique_ptr<cli::Command> (*make)(CLI::App&)) {
@@ -122,6 +123,7 @@ int main(int argc, char** argv) {
     add(cli::make_apply);
     add(cli::make_register);
     add(cli::make_transfer);
+    add(cli::make_batch);
 
     const cli::Command* running = nullptr;
     const auto fail = [&](const std::string& sentence, int code) {

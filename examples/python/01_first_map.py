@@ -1,4 +1,4 @@
-"""The extremal map of a scan to the disk, beside LSCM: 01_first_map.png, .html, .obj."""
+"""A scan is read and mapped extremally to the disk, beside LSCM: 01_first_map.png, .html, .obj."""
 
 import sys
 from pathlib import Path
@@ -10,7 +10,8 @@ from scan import scan
 
 
 def main(folder: Path) -> None:
-    surface = bt.Surface(scan())
+    bt.write_mesh(folder / "scan.obj", scan())
+    surface = bt.Surface(bt.read_mesh(folder / "scan.obj"))
     result = bt.extremal_map(surface, bt.boundary_to_disk(surface, speed="conformal", amplitude=0.8))
     print(result)
     lscm = bt.lscm_baseline(surface)

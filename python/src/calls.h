@@ -45,14 +45,18 @@ class Interruption {
 /// Runs a long computation without the interpreter's lock; Ctrl-C ends it.
 template <class Body>
 auto without_lock(Interruption& interruption, const Body& body) {
-    try {
-        const py::gil_scoped_release release;
-        const StopWhen stop([&] { return interruption.signalled(); });
-        return body();
-    } catch (const Error&) {
-        interruption.raise();
-        throw;
-    }
+    auto result = [&] {
+        try {
+            const py::gil_scoped_release release;
+            const StopWhen stop([&] { return interruption.signalled(); });
+            return body();
+        } catch (const Error&) {
+            interruption.raise();
+            throw;
+        }
+    }();
+    interruption.raise();  // it came too late to be heard, or what it ended was done without
+    return result;
 }
 template <class Body>
 auto without_lock(const Body& body) {

@@ -92,6 +92,11 @@ std::vector<PageMap> ExtremalObject::other_pages() const {
     return pages;
 }
 
+std::optional<PageDifferential> ExtremalObject::differential() const {
+    if (result_.phi.size() == 0 || result_.differential.zero() || surface()->surface.metric) return {};
+    return page_differential(surface()->surface, result_.phi, result_.differential);
+}
+
 std::string ExtremalObject::summary() const {
     char text[200];
     std::snprintf(text, sizeof text, "extremal, K %.5f (bounds %.5f, faces %.5f), %s after %d iterations, %zu flipped",

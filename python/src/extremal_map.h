@@ -19,6 +19,7 @@ class ExtremalObject final : public PlanarMap {
     std::string method() const override { return "extremal"; }
     Record record() const override;
     std::vector<PageMap> other_pages() const override;
+    std::optional<PageDifferential> differential() const override;
     std::vector<Iteration> history() const override { return result_.history; }
     std::string summary() const override;
     const ExtremalMap& result() const { return result_; }

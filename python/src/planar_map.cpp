@@ -21,7 +21,7 @@ std::string PlanarMap::summary() const {
 
 std::string PlanarMap::page(const std::string& title) const {
     PageContent content{surface_->surface.mesh, {}, {}, {}, {}, to_json(record()), title};
-    content.maps.push_back({method(), plane_positions(map()), distortion().face_abs_mu});
+    content.maps.push_back({method(), plane_positions(map()), distortion().face_abs_mu, differential()});
     for (PageMap& other : other_pages()) content.maps.push_back(std::move(other));
     for (const Iteration& iteration : history()) {
         content.history_k.push_back(iteration.k);

@@ -29,6 +29,8 @@ class PlanarMap {
     virtual Record record() const = 0;
     /// Other maps of the page, beside this one.
     virtual std::vector<PageMap> other_pages() const { return {}; }
+    /// What the page draws of φ; nothing where there is none.
+    virtual std::optional<PageDifferential> differential() const { return {}; }
     virtual std::vector<Iteration> history() const { return {}; }
     virtual std::string summary() const;
 

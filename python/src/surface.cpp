@@ -5,6 +5,7 @@
 #include <beltrami/operators/frames.h>
 
 #include "module.h"
+#include "pickle.h"
 
 namespace beltrami::python {
 
@@ -157,6 +158,22 @@ void bind_surface(py::module_& m) {
         .def(
             "d_zbar", [](const SurfaceObject& object) { return object.surface.operators.d_zbar(); },
             "∂̄ as a sparse #S×#V matrix (scipy.sparse)")
+        .def(
+            "prepare",
+            [](const SurfaceObject& object, int outer_loop) {
+                require_loop(object, outer_loop);
+                without_lock([&] {
+                    object.shape.circles(outer_loop);
+                    object.shape.without_bridges().circles(outer_loop);
+                    return 0;
+                });
+            },
+            py::arg("outer_loop") = 0,
+            "Makes the charts that maps onto, and distances from, other surfaces need. They are kept, and pickled "
+            "along, so "
+            "that other programs need not make them again.\n\nRaises BadMesh, NotSolved.")
+        .def(py::pickle([](const SurfaceObject& object) { return state_of(object); },
+                        [](const py::tuple& state) { return surface_from_state(state); }))
         .def("__repr__", &sentence_of);
 
     m.def(

@@ -33,7 +33,7 @@ def snippets(guide: str) -> str:
     return "\n".join(re.findall(r"```python\n(.*?)```", text, flags=re.S))
 
 
-@pytest.mark.parametrize("guide", ["python.md"])
+@pytest.mark.parametrize("guide", ["python.md", "cohorts.md"])
 def test_guides(guide: str, tmp_path: Path) -> None:
     code = snippets(guide)
     assert code

@@ -1,10 +1,13 @@
 #include <beltrami/base/parallel.h>
 
+#include <pthread.h>
+
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <exception>
 #include <mutex>
+#include <new>
 #include <string>
 #include <thread>
 #include <utility>
@@ -24,6 +27,7 @@ int processor_count() {
 /// Threads that wait for numbered tasks. The calling thread works along.
 class Pool {
   public:
+    explicit Pool(int threads = processor_count()) : wanted_(threads) {}
     ~Pool() { dismiss(); }
 
     void resize(int threads) {
@@ -110,7 +114,7 @@ class Pool {
     std::mutex mutex_;  ///< guards everything below but next_
     std::condition_variable start_, done_;
     std::vector<std::thread> workers_;
-    std::atomic<int> wanted_ = processor_count();
+    std::atomic<int> wanted_;
     const std::function<void(int)>* task_ = nullptr;
     int count_ = 0;
     std::atomic<int> next_ = 0;
@@ -123,6 +127,10 @@ class Pool {
 
 Pool& pool() {
     static Pool instance;
+    // A process that is forked has none of the threads: there the pool begins anew, over the old one, of which nothing
+    // can be joined.
+    static const int registered = ::pthread_atfork(nullptr, nullptr, [] { new (&pool()) Pool(pool().size()); });
+    static_cast<void>(registered);
     return instance;
 }
 

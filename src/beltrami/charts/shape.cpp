@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include <beltrami/base/error.h>
+
 namespace beltrami {
 
 Shape::Shape(const Surface& surface) : surface_(surface) {}
@@ -16,6 +18,19 @@ const CircleDomainChart& Shape::circles(int outer) const {
     const std::scoped_lock lock(mutex_);
     if (const auto kept = circles_.find(outer); kept != circles_.end()) return kept->second;
     return circles_.emplace(outer, circle_domain_chart(surface_, outer)).first->second;
+}
+
+std::map<int, CircleDomainChart> Shape::kept_circles() const {
+    const std::scoped_lock lock(mutex_);
+    return circles_;
+}
+
+void Shape::keep(CircleDomainChart circles) const {
+    if (circles.chart.vertices.size() != surface_.mesh.vertex_count() ||
+        circles.chart.positions.size() != surface_.operators.sample_count())
+        throw Error(Cause::bad_option, "the circle domain is one of another surface");
+    const std::scoped_lock lock(mutex_);
+    circles_.emplace(circles.outer_loop(), std::move(circles));
 }
 
 const Shape& Shape::without_bridges() const {

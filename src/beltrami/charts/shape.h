@@ -29,6 +29,11 @@ class Shape {
     /// circle_domain_chart(surface(), outer). @throw Error as it does
     const CircleDomainChart& circles(int outer = 0) const;
 
+    /// The circle domains that are kept, by their outer loops: to be handed to another program, which keep()s them.
+    std::map<int, CircleDomainChart> kept_circles() const;
+    /// Keeps a circle domain of this very surface that was computed before; one that is there already stays.
+    /// @throw Error bad_option unless it has a place for every vertex
+    void keep(CircleDomainChart circles) const;
     /// The same surface where no edge across it joins two boundary vertices (split_bridges); this one if there is no
     /// such edge.
     const Shape& without_bridges() const;

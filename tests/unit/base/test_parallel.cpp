@@ -1,4 +1,6 @@
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <Eigen/Core>
 #include <atomic>
@@ -128,6 +130,24 @@ TEST_F(Parallel, SeveralCallersAtOnce) {
 TEST_F(Parallel, RefusesNoThreads) {
     EXPECT_THROW(set_thread_count(0), Error);
     EXPECT_THROW(set_thread_count(-3), Error);
+}
+
+TEST_F(Parallel, WorksInAForkedProcess) {
+    set_thread_count(3);
+    const auto sum = [] {
+        return parallel_sum(
+            1000, 0, [](int first, int last) { return last - first; }, 10);
+    };
+    EXPECT_EQ(sum(), 1000);
+    const pid_t child = fork();
+    if (child == 0) {
+        alarm(20);  // it hangs where it waits for threads that the parent has
+        _exit(sum() == 1000 && thread_count() == 3 ? 0 : 1);
+    }
+    int status = -1;
+    waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0);
+    EXPECT_EQ(sum(), 1000);
 }
 
 }  // namespace

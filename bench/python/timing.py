@@ -1,0 +1,87 @@
+"""Seconds of the module beside those of the command, and what a surface that is used again saves.
+
+    PYTHONPATH=build/python /usr/bin/python3 bench/python/timing.py build/beltrami [FACES] [REPEATS]
+"""
+
+import signal
+import statistics
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from pathlib import Path
+from typing import Callable
+
+import numpy as np
+
+import beltrami as bt
+
+
+def seconds(action: Callable[[], object]) -> float:
+    start = time.perf_counter()
+    action()
+    return time.perf_counter() - start
+
+
+def main(command: str, faces: int, repeats: int) -> None:
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "scan.obj"
+        mesh = bt.disk(bt.disk_rings_for_triangles(faces), jitter=0.2)
+        x, y = mesh.positions.T
+        bt.write_mesh(path, bt.Mesh(np.column_stack([x, y, 0.6 * np.exp(-4 * (x * x + y * y)) + 0.1 * np.sin(5 * x)]), mesh.faces))
+
+        def in_python() -> None:
+            surface = bt.Surface(bt.read_mesh(path))
+            result = bt.extremal_map(surface, bt.boundary_to_disk(surface, 0.5))
+            result.save(Path(folder) / "python.obj")
+
+        def by_command() -> None:
+            arguments = ["map", path, "-o", Path(folder) / "command.obj", "--boundary", "disk:0.5", "--quiet"]
+            subprocess.run([command, *map(str, arguments)], check=True)
+
+        times = [(seconds(in_python), seconds(by_command)) for _ in range(repeats)]
+        python, own = (statistics.median(column) for column in zip(*times))
+        same = (Path(folder) / "python.obj").read_bytes() == (Path(folder) / "command.obj").read_bytes()
+        print(f"{mesh.face_count} faces: Python {python:.2f} s, command {own:.2f} s, {100 * (python / own - 1):+.1f} %; same file: {same}")
+
+        V, F = bt.read_mesh(path)
+        surface = bt.Surface(V, F)
+        first = seconds(lambda: bt.extremal_map(surface, bt.boundary_to_disk(surface, 0.5, speed="conformal")))
+        again = seconds(lambda: bt.extremal_map(surface, bt.boundary_to_disk(surface, 0.4, speed="conformal")))
+
+        def anew() -> None:
+            other = bt.Surface(V, F)
+            bt.extremal_map(other, bt.boundary_to_disk(other, 0.4, speed="conformal"))
+
+        new = seconds(anew)
+        print(f"conformal speed: first {first:.2f} s, the same surface again {again:.2f} s, a new one {new:.2f} s: {100 * (1 - again / new):.0f} % saved")
+
+
+def interruptions(faces: int) -> None:
+    """How long a solve goes on after Ctrl-C, in harmonic maps, wherever it is."""
+    surface = bt.Surface(bt.disk(bt.disk_rings_for_triangles(faces), jitter=0.2))
+    boundary = bt.boundary_to_disk(surface, 0.9)
+    harmonic = seconds(lambda: bt.harmonic_baseline(surface, boundary))
+    whole = seconds(lambda: bt.extremal_map(surface, boundary))
+    late = []
+    for part in np.linspace(0.02, 0.95, 15):
+        sent = []
+
+        def interrupt() -> None:
+            sent.append(time.perf_counter())
+            signal.raise_signal(signal.SIGINT)
+
+        timer = threading.Timer(part * whole, interrupt)
+        timer.start()
+        try:
+            bt.extremal_map(surface, boundary)
+            timer.join()
+        except KeyboardInterrupt:
+            late.append((time.perf_counter() - sent[0]) / harmonic)
+    print(f"Ctrl-C: harmonic map {harmonic:.2f} s, extremal map {whole:.2f} s; stopped {len(late)} times, after at most {max(late):.2f} harmonic maps")
+
+
+if __name__ == "__main__":
+    interruptions(int(sys.argv[2]) if len(sys.argv) > 2 else 100000)
+    main(sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 100000, int(sys.argv[3]) if len(sys.argv) > 3 else 5)
