@@ -49,9 +49,9 @@ class Links(unittest.TestCase):
         self.assertGreater(count, 100)
 
     def test_every_page_and_example_is_listed(self):
-        index = (ROOT / "docs" / "README.md").read_text()
+        index = (ROOT / "docs" / "index.md").read_text()
         for page in (ROOT / "docs").rglob("*.md"):
-            if page.name != "README.md":
+            if page.name != "index.md":
                 self.assertIn(f"({page.relative_to(ROOT / 'docs')})", index)
         readme = (ROOT / "README.md").read_text()
         examples = list((ROOT / "examples").glob("*.cpp"))
@@ -68,6 +68,8 @@ class Links(unittest.TestCase):
     def test_pictures_are_shown(self):
         shown = set(re.findall(r"\(gallery/([^)]+\.png)\)", "".join(p.read_text() for p in (ROOT / "docs").glob("*.md"))))
         self.assertEqual({p.name for p in (ROOT / "docs" / "gallery").glob("*.png")}, shown)
+        shown = set(re.findall(r"pictures/([^)]+\.png)\)", "".join(p.read_text() for p in PAGES)))
+        self.assertEqual({p.name for p in (ROOT / "docs" / "pictures").glob("*.png")}, shown)
 
     def test_sources_name_pages_that_exist(self):
         named = set()

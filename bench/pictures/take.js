@@ -1,0 +1,76 @@
+// Takes the pictures of docs/pictures from report pages: take.js PAGES_FOLDER PICTURE_FOLDER, with the pages face.html (of a
+// scan and the star), bunny.html (the same of the demo's scan, with a texture) and closed.html (a registration, with one).
+
+import { chromium } from "@playwright/test";
+import { resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+
+const [folder, pictures] = process.argv.slice(2).map(path => resolve(path));
+const browser = await chromium.launch({ executablePath: process.env.BELTRAMI_CHROMIUM ?? "/usr/bin/chromium",
+    args: ["--no-sandbox", "--disable-dev-shm-usage", "--enable-unsafe-swiftshader"] });
+
+async function open(name, options) {
+    const page = await browser.newPage({ viewport: { width: 1300, height: 1000 }, ...options });
+    await page.goto(pathToFileURL(`${folder}/${name}.html`).href);
+    await page.waitForFunction(() => document.documentElement.dataset.ready === "ok");
+    return page;
+}
+
+/// A figure as it has come to rest, as an address of data.
+async function figure(page, id) {
+    await page.waitForTimeout(1500);
+    return page.evaluate(async id => {
+        const image = await createImageBitmap(document.getElementById(id)), canvas = document.createElement("canvas");
+        [canvas.width, canvas.height] = [image.width, image.height];
+        canvas.getContext("2d").drawImage(image, 0, 0);
+        return canvas.toDataURL();
+    }, id);
+}
+
+async function firstScreen() {
+    const page = await open("face", { viewport: { width: 1100, height: 1000 } });
+    const record = JSON.parse(await page.locator("#json").textContent());
+    await page.locator("input[value=circles]").check();
+    await page.locator("#points").uncheck();
+    const show = x => x.toPrecision(5), panels = [[await figure(page, "source"), "a scan", `${record.source.faces.toLocaleString("en")} faces`]];
+    await page.selectOption("#map", { label: "harmonic" });
+    panels.push([await figure(page, "image"), "harmonic map", `${record.comparison[0].map.flipped} faces flipped (magenta)`]);
+    await page.selectOption("#map", { label: "extremal" });
+    const { K, K_lower, flipped } = record.map;
+    panels.push([await figure(page, "image"), "extremal map", `${flipped || "none"} flipped, ${show(K_lower)} ≤ K* ≤ ${show(K)} (estimates)`]);
+    await page.setContent(`<style>body { margin: 0; background: #fff; color: #1a1f26; font: 15px system-ui, sans-serif; text-align: center }
+        div { display: inline-grid; grid-template-columns: repeat(3, 320px); gap: 0 16px; padding: 10px 14px 14px } img { width: 320px }
+        b { display: block; font-size: 17px }</style><div>${panels.map(([src, name, detail]) =>
+        `<figure style="margin:0"><img src="${src}"><b>${name}</b>${detail}</figure>`).join("")}</div>`);
+    await page.locator("div").screenshot({ path: `${pictures}/first_screen.png` });
+    await page.close();
+}
+
+async function screen(name, file, options, prepare) {
+    const page = await open(name, options);
+    await prepare(page);
+    await page.waitForTimeout(2500);
+    await page.screenshot({ path: `${pictures}/${file}.png` });
+    await page.close();
+}
+
+const tick = async (page, ...boxes) => { for (const box of boxes) await page.locator(`#${box}`).check(); };
+const toFigures = page => page.evaluate(() => document.getElementById("maps-heading").scrollIntoView());
+
+await firstScreen();
+await screen("bunny", "page_light", {}, async page => {
+    await page.locator("input[value=none]").check();
+    await tick(page, "trajectories", "ellipses");
+    await toFigures(page);
+});
+await screen("bunny", "page_dark", { colorScheme: "dark" }, async page => {
+    await toFigures(page);
+    const box = await page.locator("#source").boundingBox();
+    await page.mouse.click(box.x + 0.45 * box.width, box.y + 0.55 * box.height);
+});
+await screen("bunny", "page_phone", { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true }, async page => {
+    await tick(page, "trajectories");
+    await toFigures(page);
+});
+await screen("closed", "page_closed", {}, async page => { await tick(page, "trajectories", "ellipses"); await toFigures(page); });
+await browser.close();
