@@ -14,6 +14,7 @@
 #include <beltrami/linear/linear_backend.h>
 
 #include "command.h"
+#include "manual.h"
 
 namespace {
 
@@ -125,6 +126,13 @@ int main(int argc, char** argv) {
     add(cli::make_transfer);
     add(cli::make_batch);
 
+    if (argc == 3 && std::string(argv[1]) == "--write") {  // for the build, which installs it
+        const std::string what = argv[2];
+        if (what == "manual") fmt::print("{}", cli::manual_page(app, BELTRAMI_VERSION, cli::kExitCodes));
+        if (what == "bash") fmt::print("{}", cli::bash_completion(app));
+        if (what == "zsh") fmt::print("{}", cli::zsh_completion(app));
+        return 0;
+    }
     const cli::Command* running = nullptr;
     const auto fail = [&](const std::string& sentence, int code) {
         if (running)
