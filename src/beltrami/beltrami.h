@@ -75,6 +75,9 @@
 #include <beltrami/registration/register_open.h>
 #include <beltrami/registration/register_spheres.h>
 #include <beltrami/registration/transfer.h>
+#include <beltrami/remeshing/feature_curves.h>
+#include <beltrami/remeshing/mesh_comparison.h>
+#include <beltrami/remeshing/remesh.h>
 #include <beltrami/report/page.h>
 #include <beltrami/report/record.h>
 #include <beltrami/report/record_json.h>
@@ -82,6 +85,8 @@
 #include <beltrami/solve/beltrami_solver.h>
 #include <beltrami/solve/composition.h>
 #include <beltrami/solve/quasiconformal_map.h>
+#include <beltrami/space/reference_shapes.h>
+#include <beltrami/space/uniform_map.h>
 #include <beltrami/targets/correspondence.h>
 #include <beltrami/targets/implicit_target.h>
 #include <beltrami/targets/mesh_target.h>

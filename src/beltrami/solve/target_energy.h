@@ -70,6 +70,9 @@ class BarrierEnergy final : public TargetEnergy {
     SampleTerm term(const ImageFrame& frame, int sample) const override;
     void prepare(const Operators& operators, const Positions& points, const Positions& normals) override;
 
+    /// What ψ is measured in: 1 for p = 2.
+    double unit() const { return unit_; }
+
   private:
     struct Distance;
     Distance distance(const ImageFrame& frame, int sample) const;

@@ -1,0 +1,223 @@
+// Remeshing with the connectivity kept: what the faces' shapes become, against tangential relaxation and the
+// least-squares maps of Gruber and Aulisa.
+//
+//     bench_remesh [--features DEGREES] [--holes N] [--noise A] [--fixed-border] MESH...
+//
+// --holes cuts N disks of two rings at farthest points, --noise moves vertices by A of their shortest edge along the
+// surface first. One line a method: angles (smallest / 1 % / median and mean deviation from 60 or 90 degrees), |μ|
+// (mean / std / max), faces that oppose the surface, largest distance from it and its mean of the diagonal, area ratio,
+// linear systems, seconds.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <beltrami/beltrami.h>
+#include <beltrami/mesh/submesh.h>
+#include <beltrami/space/corner_elements.h>
+#include <beltrami/space/uniform_map.h>
+
+namespace {
+
+using namespace beltrami;
+
+double now() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+struct Case {
+    Surface surface;
+    MeshTarget target;
+    CornerElements elements;
+    double diagonal, area;
+
+    explicit Case(const Mesh& mesh)
+        : surface(mesh),
+          target(mesh),
+          elements(corner_elements(mesh, regular_shapes(mesh.faces))),
+          diagonal((mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).norm()),
+          area(surface_area(mesh)) {}
+};
+
+void line(const Case& c, const std::string& name, const Positions& positions, int systems, double seconds) {
+    Mesh image = c.surface.mesh;
+    image.positions = positions;
+    const AngleStatistics angles = angle_statistics(image);
+    // Oriented by the surface, not by the image.
+    const Positions normals = normals_of(nearest_points(c.target, positions));
+    const Distortion d = distortion(c.elements.operators, positions, normals);
+    const SurfaceDistance distance = surface_distance(c.target, MeshTarget(image));
+    fmt::print(
+        "| {} | {:.1f} / {:.1f} / {:.2f} / {:.2f} | {:.4f} / {:.4f} / {:.3f} | {} | {:.4f} / {:.5f} | {:.4f} | {} | "
+        "{:.2f} |\n",
+        name, angles.smallest, angles.one_percent, angles.median_deviation, angles.mean_deviation, d.mean,
+        d.standard_deviation, d.max, opposed_faces(image, c.target).size(), distance.largest / c.diagonal,
+        distance.mean / c.diagonal, surface_area(image) / c.area, systems, seconds);
+    std::fflush(stdout);
+}
+
+/// Mesh less the faces within two rings of so many vertices, each the farthest from those before.
+Mesh with_holes(const Mesh& mesh, int holes) {
+    std::vector<int> seeds{0};
+    Eigen::VectorXd away(mesh.vertex_count());
+    for (int v = 0; v < mesh.vertex_count(); ++v) away[v] = (mesh.point(v) - mesh.point(0)).norm();
+    while (static_cast<int>(seeds.size()) < holes) {
+        Eigen::Index farthest = 0;
+        away.maxCoeff(&farthest);
+        seeds.push_back(static_cast<int>(farthest));
+        for (int v = 0; v < mesh.vertex_count(); ++v)
+            away[v] = std::min(away[v], (mesh.point(v) - mesh.point(seeds.back())).norm());
+    }
+    std::vector<char> vertex(static_cast<std::size_t>(mesh.vertex_count()), 0),
+        face(static_cast<std::size_t>(mesh.face_count()), 0);
+    for (const int v : seeds) vertex[v] = 1;
+    for (int ring = 0; ring < 2; ++ring) {
+        for (int f = 0; f < mesh.face_count(); ++f)
+            for (const int v : mesh.faces[f])
+                if (vertex[v]) face[f] = 1;
+        for (int f = 0; f < mesh.face_count(); ++f)
+            if (face[f])
+                for (const int v : mesh.faces[f]) vertex[v] = 1;
+    }
+    std::vector<int> kept;
+    for (int f = 0; f < mesh.face_count(); ++f)
+        if (!face[f]) kept.push_back(f);
+    return keep_faces(mesh, kept).mesh;
+}
+
+/// Vertices inside moved at random by at most so much of their shortest edge, along the surface.
+Mesh with_noise(const Mesh& mesh, double amount) {
+    const MeshTarget target(mesh);
+    const Topology combinatorics = topology(mesh);
+    Eigen::VectorXd shortest = Eigen::VectorXd::Constant(mesh.vertex_count(), 1e300);
+    for (const auto& [a, b] : combinatorics.edges) {
+        const double length = (mesh.point(a) - mesh.point(b)).norm();
+        shortest[a] = std::min(shortest[a], length);
+        shortest[b] = std::min(shortest[b], length);
+    }
+    std::mt19937 random(1);
+    const auto uniform = [&] { return 2.0 * (static_cast<double>(random()) / 4294967296.0) - 1; };
+    const Positions normals = vertex_normals(mesh);
+    Mesh result = mesh;
+    for (int v = 0; v < mesh.vertex_count(); ++v) {
+        const double x = amount * shortest[v] * uniform(), y = amount * shortest[v] * uniform();
+        if (combinatorics.on_boundary[v]) continue;
+        const Eigen::Vector3d normal = normals.row(v), u = normal.unitOrthogonal(), w = normal.cross(u);
+        result.positions.row(v) = target.nearest(mesh.point(v) + x * u + y * w).position;
+    }
+    return result;
+}
+
+/// What remeshing tools do with the connectivity kept: to the mean of the neighbours weighted by areas, half of the
+/// way, along the tangent plane, and back to the surface.
+Positions tangential_relaxation(const Case& c, const std::vector<char>& held, int rounds) {
+    Mesh image = c.surface.mesh;
+    const int n = image.vertex_count();
+    for (int round = 0; round < rounds; ++round) {
+        Eigen::VectorXd area = Eigen::VectorXd::Zero(n), weight = Eigen::VectorXd::Zero(n);
+        for (int f = 0; f < image.face_count(); ++f)
+            for (const int v : image.faces[f]) area[v] += face_vector_area(image, f).norm();
+        Positions sum = Positions::Zero(n, 3);
+        for (const auto& [a, b] : c.surface.topology.edges) {
+            sum.row(a) += area[b] * image.positions.row(b);
+            sum.row(b) += area[a] * image.positions.row(a);
+            weight[a] += area[b];
+            weight[b] += area[a];
+        }
+        const Positions normals = vertex_normals(image);
+        for (int v = 0; v < n; ++v) {
+            if (held[v]) continue;
+            Eigen::RowVector3d move = sum.row(v) / weight[v] - image.positions.row(v);
+            move -= move.dot(normals.row(v)) * normals.row(v);
+            image.positions.row(v) = c.target.nearest((image.positions.row(v) + 0.5 * move).transpose()).position;
+        }
+    }
+    return image.positions;
+}
+
+void least_squares(const Case& c, const char* name, Preserve preserve, const std::vector<char>& held) {
+    const double start = now();
+    LeastSquaresMap problem(c.surface.mesh, c.elements, c.surface.mesh.positions, held, preserve);
+    UniformOptions options;
+    options.max_iterations = 15;
+    const UniformMap map = uniform_map(problem, c.surface.mesh, options);
+    const double seconds = now() - start;
+    line(c, fmt::format("{} preserved, least squares", name), map.first, 1, seconds / map.solves);
+    line(c, fmt::format("{} preserved, QC iteration", name), map.map, map.solves, seconds);
+}
+
+void measure(const std::string& name, const Mesh& mesh, const RemeshOptions& given) {
+    const Case c(mesh);
+    fmt::print("| **{}, {} faces** | | | | | | | |\n", name, mesh.face_count());
+    line(c, "start", mesh.positions, 0, 0);
+    std::vector<char> held(static_cast<std::size_t>(mesh.vertex_count()), 0);
+    const FeatureCurves features = feature_curves(mesh, c.surface.topology, given.feature_angle);
+    for (const int v : features.corners) held[v] = 1;
+    for (const FeatureCurves::Curve& curve : features.curves)
+        for (const int v : curve.vertices) held[v] = 1;
+    double start = now();
+    const Positions relaxed = tangential_relaxation(c, held, 50);
+    line(c, "tangential relaxation, 50 rounds", relaxed, 0, now() - start);
+    least_squares(c, "normals", Preserve::normals, held);
+    least_squares(c, "area", Preserve::area, held);
+    const auto of_kind = [&](const std::string& kind, const RemeshOptions& options) {
+        start = now();
+        try {
+            const RemeshedSurface result = remesh(c.surface, regular_shapes(mesh.faces), options);
+            line(c, kind, result.positions, result.factorizations, now() - start);
+        } catch (const Error& error) {
+            fmt::print("| {} | {} | | | | | | |\n", kind, error.what());
+        }
+    };
+    RemeshOptions options = given;
+    options.fast = true;
+    of_kind("one linear solve", options);
+    options.fast = false;
+    for (const double power : {2.0, 4.0, 8.0}) {
+        options.power = power;
+        of_kind(fmt::format("remesh, p = {:g}", power), options);
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    RemeshOptions options;
+    int holes = 0;
+    double noise = 0;
+    fmt::print(
+        "| | min / 1 % / median / mean deviation | mean / std / max \\|mu\\| | opposed | distance largest / mean | "
+        "area | "
+        "systems | s |\n| --- | --- | --- | --- | --- | --- | --- | --- |\n");
+    try {
+        for (int i = 1; i < argc; ++i) {
+            const bool more = i + 1 < argc;
+            if (!std::strcmp(argv[i], "--features") && more)
+                options.feature_angle = std::stod(argv[++i]) * std::numbers::pi / 180;
+            else if (!std::strcmp(argv[i], "--holes") && more)
+                holes = std::stoi(argv[++i]);
+            else if (!std::strcmp(argv[i], "--noise") && more)
+                noise = std::stod(argv[++i]);
+            else if (!std::strcmp(argv[i], "--fixed-border"))
+                options.slide_border = false;
+            else {
+                Mesh mesh = remove_unreferenced(read_mesh(argv[i]).mesh).mesh;
+                if (noise > 0) mesh = with_noise(mesh, noise);
+                if (holes > 0) mesh = with_holes(mesh, holes);
+                measure(argv[i], mesh, options);
+            }
+        }
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "{}\n", error.what());
+        return 1;
+    }
+    return 0;
+}

@@ -1,0 +1,182 @@
+#include <beltrami/remeshing/remesh.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include <beltrami/base/error.h>
+#include <beltrami/operators/distortion.h>
+#include <beltrami/remeshing/feature_curves.h>
+#include <beltrami/remeshing/mesh_comparison.h>
+#include <beltrami/space/least_squares_map.h>
+#include <beltrami/space/tangential_map.h>
+
+namespace beltrami {
+
+namespace {
+
+constexpr double kNeedle = 0.999;  // |μ| of a face from which on steps begin strongly damped
+constexpr double kNeedleDamping = 1e5;
+constexpr int kFirstSteps = 6, kPowerSteps = 8, kRounds = 25, kStepsOfRound = 2;
+constexpr double kTolerance = 1e-3, kRoundTolerance = 1e-4;
+
+double diagonal_of(const Mesh& mesh) {
+    return (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).norm();
+}
+
+/// Vertices of faces whose normal opposes that of one of their vertices: nothing is known of the surface there.
+std::vector<int> at_opposed_corners(const Mesh& mesh) {
+    const Positions normals = vertex_normals(mesh);
+    std::vector<char> held(static_cast<std::size_t>(mesh.vertex_count()), 0);
+    for (int f = 0; f < mesh.face_count(); ++f) {
+        const Eigen::Vector3d up = face_vector_area(mesh, f);
+        const auto v = mesh.faces[f];
+        if (std::any_of(v.begin(), v.end(), [&](int i) { return normals.row(i).dot(up) < 0; }))
+            for (const int i : v) held[i] = 1;
+    }
+    std::vector<int> result;
+    for (int v = 0; v < mesh.vertex_count(); ++v)
+        if (held[v]) result.push_back(v);
+    return result;
+}
+
+Positions points_of(const Mesh& mesh, const std::vector<int>& vertices) {
+    Positions points(static_cast<Eigen::Index>(vertices.size()), 3);
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+        points.row(static_cast<Eigen::Index>(i)) = mesh.point(vertices[i]);
+    return points;
+}
+
+/// What stays and what slides.
+TargetConstraints constraints_of(const Surface& surface, const RemeshOptions& options) {
+    const Mesh& mesh = surface.mesh;
+    const FeatureCurves features = feature_curves(mesh, surface.topology, options.feature_angle);
+    std::vector<char> fixed(static_cast<std::size_t>(mesh.vertex_count()), 0);
+    for (const int v : features.corners) fixed[v] = 1;
+    for (const int v : at_opposed_corners(mesh)) fixed[v] = 1;
+    if (!options.slide_border)
+        for (const auto& loop : surface.topology.boundary_loops)
+            for (const int v : loop) fixed[v] = 1;
+    TargetConstraints constraints;
+    for (const FeatureCurves::Curve& curve : features.curves) {
+        const int index = static_cast<int>(constraints.curves.size());
+        constraints.curves.push_back(std::make_shared<PolylineCurve>(points_of(mesh, curve.vertices), curve.closed));
+        for (const int v : curve.vertices)
+            if (!fixed[v]) constraints.sliding.push_back({v, index});
+    }
+    for (int v = 0; v < mesh.vertex_count(); ++v)
+        if (fixed[v]) constraints.fixed.push_back(v);
+    return constraints;
+}
+
+/// Where a vertex has to be in units of what the mean vertex has.
+Eigen::VectorXd area_factors(const Operators& operators, const Eigen::VectorXd& sizing) {
+    Eigen::VectorXd factors(operators.sample_count());
+    for (int s = 0; s < operators.sample_count(); ++s) {
+        double log_size = 0;
+        for (const int v : operators.stencil(s)) log_size += std::log(sizing[v]) / 3;
+        factors[s] = std::exp(2 * log_size);
+    }
+    double mean = 0;
+    for (int s = 0; s < operators.sample_count(); ++s) mean += operators.weights[s] * factors[s];
+    return factors * (operators.area() / mean);
+}
+
+void conclude(const Surface& surface, const MeshTarget& target, RemeshedSurface& result) {
+    Mesh image = surface.mesh;
+    image.positions = result.positions;
+    result.distance = surface_distance(target, MeshTarget(image)).largest / diagonal_of(surface.mesh);
+    result.unresolved = opposed_faces(image, target);
+    result.opposed_before = opposed_faces(surface.mesh, target);
+}
+
+/// Where the start has needles, whose vertices no step must carry along.
+bool has_needles(const Eigen::VectorXcd& mu) {
+    return mu.size() > 0 && mu.cwiseAbs().maxCoeff() > kNeedle;
+}
+
+void warn_of_distance(const RemeshOptions& options, RemeshedSurface& result) {
+    if (result.distance > 1.4 * options.max_distance)
+        result.warnings.push_back(
+            {WarningKind::iteration_limit, "the image is up to " + std::to_string(result.distance) +
+                                         " of the diagonal away from the surface, more than was allowed"});
+}
+
+void warn_of_tips(RemeshedSurface& result) {
+    if (result.unresolved.empty()) return;
+    const std::size_t count = result.unresolved.size();
+    result.warnings.push_back({WarningKind::flipped_faces,
+                               "under-resolved tips: " + std::to_string(count) +
+                                   (count == 1 ? " face opposes" : " faces oppose") + " the surface (" +
+                                   std::to_string(result.opposed_before.size()) + " did so before)",
+                               {Things::faces, result.unresolved}});
+}
+
+RemeshedSurface fast(const Surface& surface, const CornerElements& elements, const MeshTarget& target,
+                     const TargetConstraints& constraints) {
+    std::vector<char> fixed(static_cast<std::size_t>(surface.mesh.vertex_count()), 0);
+    for (const int v : constraints.fixed) fixed[v] = 1;
+    for (const TargetConstraints::Slide& slide : constraints.sliding) fixed[slide.vertex] = 1;
+    Positions start(surface.mesh.vertex_count(), 3);
+    for (int v = 0; v < surface.mesh.vertex_count(); ++v) start.row(v) = surface.mesh.point(v);
+    LeastSquaresMap problem(surface.mesh, elements, std::move(start), std::move(fixed), Preserve::normals);
+    const Positions moved = problem.solve(Eigen::VectorXcd::Zero(elements.operators.sample_count()));
+    const Target::Points points = nearest_points(target, moved);
+    RemeshedSurface result;
+    result.positions = positions_of(points);
+    result.places = places_of(points);
+    result.factorizations = problem.factorization_count();
+    result.settled = true;
+    conclude(surface, target, result);
+    if (result.unresolved.size() > result.opposed_before.size())
+        throw Error(Cause::not_solved, "one linear solve folds " + std::to_string(result.unresolved.size()) + " faces",
+                    "take the iteration", {Things::faces, result.unresolved});
+    return result;
+}
+
+}  // namespace
+
+void RemeshOptions::validate() const {
+    if (!(power >= 2 && power <= 64)) throw Error(Cause::bad_option, "the power is not between 2 and 64");
+    if (!(max_distance > 0)) throw Error(Cause::bad_option, "the distance allowed is not positive");
+    if (!(even_size >= 0)) throw Error(Cause::bad_option, "the weight of the areas is negative");
+    if (feature_angle && !(*feature_angle > 0 && *feature_angle < std::numbers::pi))
+        throw Error(Cause::bad_option, "the angle of features is not between 0 and 180 degrees");
+    if (sizing && !(sizing->array() > 0).all()) throw Error(Cause::bad_option, "a size is not positive");
+}
+
+RemeshedSurface remesh(const Surface& surface, const Positions& reference, const RemeshOptions& options) {
+    options.validate();
+    if (options.sizing && options.sizing->size() != surface.mesh.vertex_count())
+        throw Error(Cause::bad_option, "there are " + std::to_string(options.sizing->size()) + " sizes for " +
+                                           std::to_string(surface.mesh.vertex_count()) + " vertices");
+    const CornerElements elements = corner_elements(surface.mesh, reference);
+    const MeshTarget target(surface.mesh);
+    const TargetConstraints constraints = constraints_of(surface, options);
+    if (options.fast) return fast(surface, elements, target, constraints);
+
+    TangentialMap map(surface, elements.operators, target, constraints, options.even_size);
+    map.set_progress(options.progress);
+    if (options.sizing) map.scale_areas(area_factors(elements.operators, *options.sizing));
+    if (has_needles(map.coefficients())) map.set_damping(kNeedleDamping);
+    RemeshedSurface result;
+    map.relax(2, kFirstSteps, kTolerance);
+    if (options.power > 2) map.relax(options.power, kPowerSteps, kTolerance);
+    const double allowed = options.max_distance * diagonal_of(surface.mesh);
+    for (; result.rounds < kRounds && !result.settled; ++result.rounds) {
+        result.settled = map.hold_within(allowed).vertices == 0;
+        if (!result.settled) map.relax(options.power, kStepsOfRound, kRoundTolerance);
+    }
+    result.positions = map.positions();
+    result.places = places_of(map.points());
+    result.steps = map.steps();
+    result.factorizations = map.factorization_count();
+    conclude(surface, target, result);
+    warn_of_distance(options, result);
+    warn_of_tips(result);
+    return result;
+}
+
+}  // namespace beltrami
