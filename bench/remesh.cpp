@@ -210,6 +210,7 @@ int main(int argc, char** argv) {
                 options.slide_border = false;
             else {
                 Mesh mesh = remove_unreferenced(read_mesh(argv[i]).mesh).mesh;
+                mesh.texture.reset();
                 if (noise > 0) mesh = with_noise(mesh, noise);
                 if (holes > 0) mesh = with_holes(mesh, holes);
                 measure(argv[i], mesh, options);

@@ -55,6 +55,7 @@ std::unique_ptr<Command> make_apply(CLI::App& parent);
 std::unique_ptr<Command> make_register(CLI::App& parent);
 std::unique_ptr<Command> make_transfer(CLI::App& parent);
 std::unique_ptr<Command> make_batch(CLI::App& parent);
+std::unique_ptr<Command> make_remesh(CLI::App& parent);
 
 /// Exit codes by cause; --help lists them.
 int exit_code(Cause cause);

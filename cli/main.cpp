@@ -106,6 +106,7 @@ int main(int argc, char** argv) {
                     "  beltrami flow face.obj --mu mu.txt --boundary disk -o out.obj   # a given mu\n"
                     "  beltrami apply out.obj points.txt -o images.txt   # a map, or its inverse, at any points\n"
                     "  beltrami register a.obj b.obj --landmarks pairs.txt -o carried.obj   # closed, genus 0\n"
+                    "  beltrami remesh scan.obj -o even.obj   # better shapes, the same connectivity\n"
                     "  beltrami batch jobs.jsonl -o results   # many commands, resumable\n\n") +
         cli::kExitCodes);
     std::vector<std::pair<CLI::App*, std::unique_ptr<cli::Command>>> commands;
@@ -125,6 +126,7 @@ int main(int argc, char** argv) {
     add(cli::make_register);
     add(cli::make_transfer);
     add(cli::make_batch);
+    add(cli::make_remesh);
 
     if (argc == 3 && std::string(argv[1]) == "--write") {  // for the build, which installs it
         const std::string what = argv[2];

@@ -74,6 +74,15 @@ void write_at(const std::string& path, const FaceList& faces, const Positions& p
     write_mesh(path, {mesh_at(positions, faces), {}, columns_of(distortion), {}, without_normals(attributes)});
 }
 
+void write_with_texture(const std::string& path, const Mesh& mesh, double unit, const Distortion& distortion,
+                        const FileAttributes& attributes) {
+    const bool has_corners = lower_case_extension(path) != ".off";
+    const Mesh whole = mesh_at(unit * mesh.positions, mesh.faces);
+    MeshOutput output{whole, {}, columns_of(distortion), {}, without_normals(attributes)};
+    if (has_corners) output.corner_map = mesh.texture;
+    write_mesh(path, output);
+}
+
 void OutputOptions::write(const Mesh& source, const Eigen::VectorXcd& map, const Distortion& distortion,
                           const FileAttributes& attributes, double unit) const {
     const Positions points = fit_.fitted(positions_of(map));

@@ -14,6 +14,10 @@ void require_mesh_format(const std::string& path);
 void write_at(const std::string& path, const FaceList& faces, const Positions& positions, const Distortion& distortion,
               const FileAttributes& attributes);
 
+/// The same of a mesh with texture coordinates of its own, which are written where the format has them per corner.
+void write_with_texture(const std::string& path, const Mesh& mesh, double unit, const Distortion& distortion,
+                        const FileAttributes& attributes);
+
 /// --fit: the size of texture coordinates that are written.
 class FitOption {
   public:

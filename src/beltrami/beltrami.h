@@ -75,6 +75,7 @@
 #include <beltrami/registration/register_open.h>
 #include <beltrami/registration/register_spheres.h>
 #include <beltrami/registration/transfer.h>
+#include <beltrami/remeshing/carried_data.h>
 #include <beltrami/remeshing/feature_curves.h>
 #include <beltrami/remeshing/mesh_comparison.h>
 #include <beltrami/remeshing/remesh.h>

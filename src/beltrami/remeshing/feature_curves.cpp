@@ -15,8 +15,16 @@ constexpr double kCornerTurn = 50 * std::numbers::pi / 180;
 
 using Neighbours = std::vector<std::vector<int>>;
 
+/// Once.
+void join(Neighbours& neighbours, int u, int v) {
+    if (std::find(neighbours[u].begin(), neighbours[u].end(), v) != neighbours[u].end()) return;
+    neighbours[u].push_back(v);
+    neighbours[v].push_back(u);
+}
+
 /// Vertices joined by the edges that count.
-Neighbours feature_edges(const Mesh& mesh, const Topology& topology, std::optional<double> angle) {
+Neighbours feature_edges(const Mesh& mesh, const Topology& topology, std::optional<double> angle,
+                         std::span<const std::array<int, 2>> given) {
     Neighbours neighbours(static_cast<std::size_t>(mesh.vertex_count()));
     for (int e = 0; e < topology.edge_count(); ++e) {
         const auto [left, right] = topology.edge_faces[e];
@@ -26,9 +34,9 @@ Neighbours feature_edges(const Mesh& mesh, const Topology& topology, std::option
             if (std::atan2(a.cross(b).norm(), a.dot(b)) <= *angle) continue;
         }
         const auto [u, v] = topology.edges[e];
-        neighbours[u].push_back(v);
-        neighbours[v].push_back(u);
+        join(neighbours, u, v);
     }
+    for (const auto& [u, v] : given) join(neighbours, u, v);
     return neighbours;
 }
 
@@ -48,8 +56,9 @@ int next_of(const Neighbours& neighbours, int vertex, int from) {
 
 }  // namespace
 
-FeatureCurves feature_curves(const Mesh& mesh, const Topology& topology, std::optional<double> angle) {
-    const Neighbours neighbours = feature_edges(mesh, topology, angle);
+FeatureCurves feature_curves(const Mesh& mesh, const Topology& topology, std::optional<double> angle,
+                             std::span<const std::array<int, 2>> given) {
+    const Neighbours neighbours = feature_edges(mesh, topology, angle, given);
     FeatureCurves result;
     std::vector<char> corner(neighbours.size(), 0), seen(neighbours.size(), 0);
     for (int v = 0; v < mesh.vertex_count(); ++v) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <beltrami/base/public.h>
@@ -19,8 +21,10 @@ struct FeatureCurves {
     std::vector<int> corners;
 };
 
-/// The border and the edges at which the normals of the two faces differ by more than an angle.
-/// @param angle radians; none: the border only
-FeatureCurves feature_curves(const Mesh& mesh, const Topology& topology, std::optional<double> angle);
+/// The border, given edges, and those at which the normals of the two faces differ by more than an angle.
+/// @param angle radians; none: no others
+/// @param given pairs of vertices, such as seam_edges (carried_data.h)
+FeatureCurves feature_curves(const Mesh& mesh, const Topology& topology, std::optional<double> angle,
+                             std::span<const std::array<int, 2>> given = {});
 
 }  // namespace beltrami

@@ -8,6 +8,7 @@
 
 #include <beltrami/base/error.h>
 #include <beltrami/operators/distortion.h>
+#include <beltrami/remeshing/carried_data.h>
 #include <beltrami/remeshing/feature_curves.h>
 #include <beltrami/remeshing/mesh_comparison.h>
 #include <beltrami/space/least_squares_map.h>
@@ -20,7 +21,7 @@ namespace {
 constexpr double kNeedle = 0.999;  // |μ| of a face from which on steps begin strongly damped
 constexpr double kNeedleDamping = 1e5;
 constexpr int kFirstSteps = 6, kPowerSteps = 8, kRounds = 25, kStepsOfRound = 2;
-constexpr double kTolerance = 1e-3, kRoundTolerance = 1e-4;
+constexpr double kTolerance = 1e-3;
 
 double diagonal_of(const Mesh& mesh) {
     return (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).norm();
@@ -52,7 +53,9 @@ Positions points_of(const Mesh& mesh, const std::vector<int>& vertices) {
 /// What stays and what slides.
 TargetConstraints constraints_of(const Surface& surface, const RemeshOptions& options) {
     const Mesh& mesh = surface.mesh;
-    const FeatureCurves features = feature_curves(mesh, surface.topology, options.feature_angle);
+    std::vector<std::array<int, 2>> seams;
+    if (options.keep_seams) seams = seam_edges(mesh);
+    const FeatureCurves features = feature_curves(mesh, surface.topology, options.feature_angle, seams);
     std::vector<char> fixed(static_cast<std::size_t>(mesh.vertex_count()), 0);
     for (const int v : features.corners) fixed[v] = 1;
     for (const int v : at_opposed_corners(mesh)) fixed[v] = 1;
@@ -101,7 +104,7 @@ void warn_of_distance(const RemeshOptions& options, RemeshedSurface& result) {
     if (result.distance > 1.4 * options.max_distance)
         result.warnings.push_back(
             {WarningKind::iteration_limit, "the image is up to " + std::to_string(result.distance) +
-                                         " of the diagonal away from the surface, more than was allowed"});
+                                               " of the diagonal away from the surface, more than was allowed"});
 }
 
 void warn_of_tips(RemeshedSurface& result) {
@@ -166,8 +169,8 @@ RemeshedSurface remesh(const Surface& surface, const Positions& reference, const
     if (options.power > 2) map.relax(options.power, kPowerSteps, kTolerance);
     const double allowed = options.max_distance * diagonal_of(surface.mesh);
     for (; result.rounds < kRounds && !result.settled; ++result.rounds) {
-        result.settled = map.hold_within(allowed).vertices == 0;
-        if (!result.settled) map.relax(options.power, kStepsOfRound, kRoundTolerance);
+        result.settled = map.hold_within(allowed).vertices == 0 && map.at_rest();
+        if (!result.settled) map.relax(options.power, kStepsOfRound, kTolerance);
     }
     result.positions = map.positions();
     result.places = places_of(map.points());

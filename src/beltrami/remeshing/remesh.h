@@ -19,6 +19,9 @@ struct RemeshOptions {
     double even_size = 0.03;              ///< weight of keeping the faces' areas
     std::optional<double> feature_angle;  ///< radians; edges with sharper ones stay in their curves
     bool slide_border = true;             ///< else vertices of the border stay
+    /// Vertices on seams of the mesh's texture coordinates slide along these, so that the texture can be carried along
+    /// (carried_data.h); else they move freely.
+    bool keep_seams = true;
     /// #V: by what edges at the vertices ought to be longer (where above the mean) or shorter than they are; empty: as
     /// they are. Takes even_size to be large: 1.
     std::optional<Eigen::VectorXd> sizing;
@@ -34,7 +37,7 @@ struct RemeshedSurface {
     std::vector<MeshPoint> places;  ///< #V: where that is
     double distance = 0;            ///< the largest between image and surface, of the diagonal
     int rounds = 0, steps = 0, factorizations = 0;
-    bool settled = false;         ///< the distance was kept before the rounds were over
+    bool settled = false;         ///< at rest within the distance before the rounds were over
     std::vector<int> unresolved;  ///< faces whose normals oppose the surface's at the end
     std::vector<int> opposed_before;
     Warnings warnings;

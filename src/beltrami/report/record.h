@@ -17,6 +17,7 @@
 #include <beltrami/registration/register_spheres.h>
 #include <beltrami/report/grid_record.h>
 #include <beltrami/report/registration_record.h>
+#include <beltrami/report/remesh_record.h>
 #include <beltrami/teichmuller/certify.h>
 #include <beltrami/teichmuller/distance.h>
 #include <beltrami/teichmuller/extremal_between.h>
@@ -238,6 +239,7 @@ struct Record {
     std::optional<TorusRecord> torus;
     std::optional<HyperbolicRecord> hyperbolic;
     std::optional<RegistrationRecord> registration;
+    std::optional<RemeshRecord> remesh;
     std::optional<FlowRecord> flow;
     std::optional<SurfaceFlowRecord> surface_flow;
     std::optional<GridRecord> grid;

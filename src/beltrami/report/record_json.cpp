@@ -210,6 +210,30 @@ Json error_of(const CoefficientError& error) {
             {"misfit", number(error.misfit)}};
 }
 
+Json to_object(const AngleStatistics& angles) {
+    return {{"min", number(angles.smallest)},
+            {"p1", number(angles.one_percent)},
+            {"max", number(angles.largest)},
+            {"median_deviation", number(angles.median_deviation)},
+            {"mean_deviation", number(angles.mean_deviation)},
+            {"histogram", angles.histogram}};
+}
+
+Json to_object(const RemeshRecord& remesh) {
+    Json object = {{"reference", remesh.reference}, {"method", remesh.method}};
+    if (remesh.power > 0) object["power"] = remesh.power;
+    object["angles"] = {{"before", to_object(remesh.before)}, {"after", to_object(remesh.after)}};
+    object["distance"] = {{"largest", number(remesh.distance.largest)}, {"mean", number(remesh.distance.mean)}};
+    object["area_ratio"] = number(remesh.area_ratio);
+    object["size_deviation"] = number(remesh.size_deviation);
+    object["opposed"] = {{"before", remesh.opposed_before}, {"after", remesh.opposed_after}};
+    object["valence_floor"] = number(remesh.valence_floor);
+    put(object, "k_reference", remesh.teichmueller);
+    object["steps"] = remesh.steps;
+    object["settled"] = remesh.settled;
+    return object;
+}
+
 Json to_object(const FlowRecord& flow) {
     Json object = {{"coefficient", flow.coefficient}};
     if (flow.target) object["target"] = *flow.target;
@@ -417,6 +441,7 @@ std::string to_json(const Record& record) {
     if (record.torus) json["torus"] = to_object(*record.torus);
     if (record.hyperbolic) json["hyperbolic"] = to_object(*record.hyperbolic);
     if (record.registration) json["registration"] = to_object(*record.registration);
+    if (record.remesh) json["remesh"] = to_object(*record.remesh);
     if (record.flow) json["flow"] = to_object(*record.flow);
     if (record.surface_flow) json["surface_flow"] = to_object(*record.surface_flow);
     if (record.grid) json["grid"] = to_object(*record.grid);

@@ -151,6 +151,21 @@ std::string lines_of(const RegistrationRecord& registration) {
     return text;
 }
 
+std::string lines_of(const RemeshRecord& remesh) {
+    const auto angles = [](const char* when, const AngleStatistics& a) {
+        return fmt::format("angles {}: smallest {:.1f}, 1 % below {:.1f}, largest {:.1f}; off by {:.1f} on average\n",
+                           when, a.smallest, a.one_percent, a.largest, a.mean_deviation);
+    };
+    std::string text = angles("before", remesh.before) + angles("after", remesh.after);
+    text += fmt::format("at most {:.2g} of the diagonal away from the surface; area times {:.4f}; {} opposed to it\n",
+                        remesh.distance.largest, remesh.area_ratio,
+                        remesh.opposed_after == 1 ? "1 face" : std::to_string(remesh.opposed_after) + " faces");
+    text += fmt::format("the valences alone cost |mu| = {:.3f} on average\n", remesh.valence_floor);
+    if (remesh.teichmueller)
+        text += fmt::format("no map between the two tori has |mu| below {:.4f} everywhere\n", *remesh.teichmueller);
+    return text;
+}
+
 std::string cell(const std::optional<double>& value, int digits) {
     if (!value) return "";
     if (std::isnan(*value)) return "-";
@@ -223,6 +238,7 @@ std::string to_remarks(const Record& record) {
     if (record.torus) text += line_of(*record.torus);
     if (record.hyperbolic) text += lines_of(*record.hyperbolic);
     if (record.registration) text += lines_of(*record.registration);
+    if (record.remesh) text += lines_of(*record.remesh);
     if (record.flow) text += line_of(record.flow->error);
     if (record.surface_flow && record.surface_flow->coefficient) text += line_of(record.surface_flow->error);
     if (record.least_maximum)

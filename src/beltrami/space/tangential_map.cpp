@@ -246,9 +246,9 @@ void TangentialMap::assemble_vertices(double unit, const std::vector<TargetMotio
             gradient_[2 * place_[v] + a] += ways[v][a].dot(force);
             for (int b = 0; b <= a; ++b, ++entry) lower[entry] = ways[v][a].dot(pull * ways[v][b]);
         }
-        lower[0] += scale * damping_;
+        lower[0] += scale * damping_ * ways[v][0].squaredNorm();
         // A vertex that slides has one unknown only.
-        lower[2] += ways[v][1].isZero() ? 1 / unit : scale * damping_;
+        lower[2] += ways[v][1].isZero(0) ? 1 : scale * damping_ * ways[v][1].squaredNorm();
         system_.add(operators_.sample_count() + static_cast<int>(v), lower);
     }
 }
@@ -260,20 +260,31 @@ void TangentialMap::assemble(const BarrierEnergy& energy, const std::vector<Targ
     assemble_vertices(energy.unit(), ways);
 }
 
+/// Directions of such lengths that the diagonal of the system becomes 1.
+void TangentialMap::equilibrate(std::vector<TargetMotion::Directions>& ways) const {
+    for (std::size_t v = 0; v < place_.size(); ++v)
+        for (int a = 0; a < 2; ++a)
+            if (place_[v] >= 0 && !ways[v][a].isZero(0))
+                ways[v][a] /= std::sqrt(std::max(system_.diagonal(2 * place_[v] + a), 1e-300));
+}
+
 Positions TangentialMap::direction(const BarrierEnergy& energy) {
     std::vector<TargetMotion::Directions> ways;
     ways.reserve(place_.size());
     for (std::size_t v = 0; v < place_.size(); ++v) ways.push_back(motion_.directions(static_cast<int>(v), map_));
     Eigen::VectorXd solution;
-    for (double shift = kShift;; shift *= 100) {
+    double shift = kShift;
+    for (bool solved = false; !solved; shift *= 100) {
         assemble(energy, ways);
+        const bool last = shift >= kLargestShift;
         system_.scale_diagonal(1 + shift);
         try {
             system_.factorize();
             solution = system_.solve(-gradient_);
-            break;
+            solved = true;
         } catch (const Error& error) {
-            if (error.cause() != Cause::not_solved || shift >= kLargestShift) throw;
+            if (error.cause() != Cause::not_solved || last) throw;
+            equilibrate(ways);
         }
     }
     Positions motion = Positions::Zero(static_cast<Eigen::Index>(place_.size()), 3);
@@ -342,8 +353,9 @@ int TangentialMap::relax(double power, int max_steps, double tolerance) {
             throw Error(Cause::cancelled, "cancelled after step " + std::to_string(steps_));
         damp(taken.length);
         futile = taken.length == 0 ? futile + 1 : 0;
-        const bool settled = taken.length > kShort && taken.fallen < tolerance && damping_ < kUndamped;
-        if (settled || futile >= kFutileSteps) return count;
+        at_rest_ =
+            (taken.length > kShort && taken.fallen < tolerance && damping_ < kUndamped) || futile >= kFutileSteps;
+        if (at_rest_) return count;
     }
     return max_steps;
 }
