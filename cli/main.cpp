@@ -107,6 +107,7 @@ int main(int argc, char** argv) {
                     "  beltrami apply out.obj points.txt -o images.txt   # a map, or its inverse, at any points\n"
                     "  beltrami register a.obj b.obj --landmarks pairs.txt -o carried.obj   # closed, genus 0\n"
                     "  beltrami remesh scan.obj -o even.obj   # better shapes, the same connectivity\n"
+                    "  beltrami deform part.obj --pin handles.txt -o bent.obj\n"
                     "  beltrami batch jobs.jsonl -o results   # many commands, resumable\n\n") +
         cli::kExitCodes);
     std::vector<std::pair<CLI::App*, std::unique_ptr<cli::Command>>> commands;
@@ -127,6 +128,7 @@ int main(int argc, char** argv) {
     add(cli::make_transfer);
     add(cli::make_batch);
     add(cli::make_remesh);
+    add(cli::make_deform);
 
     if (argc == 3 && std::string(argv[1]) == "--write") {  // for the build, which installs it
         const std::string what = argv[2];

@@ -7,10 +7,12 @@
 #include <beltrami/mesh/texture_map.h>
 #include <beltrami/mesh/topology.h>
 #include <beltrami/operators/distortion.h>
+#include <beltrami/space/corner_elements.h>
 
 #include "command.h"
 #include "mesh_input.h"
 #include "page.h"
+#include "reference_option.h"
 #include "words.h"
 
 namespace beltrami::cli {
@@ -57,19 +59,27 @@ class Measure final : public Command {
         app->add_flag("--certify", certify_,
                       "prove how much any map of SOURCE, a disk, with the same boundary values stretches at least, "
                       "beside what this one attains");
+        reference_.add_to(*app);
         options_.add_to(*app);
         common_.add_to(*app);
         app->footer(kExitCodes);
     }
 
     int run() override {
-        common_.check_files({{"SOURCE", source_}, {"IMAGE", image_}});
+        std::vector<NamedFile> inputs = reference_.inputs();
+        inputs.insert(inputs.end(), {{"SOURCE", source_}, {"IMAGE", image_}});
+        common_.check_files(inputs);
+        if (reference_.given() && (certify_ || !image_.empty()))
+            throw Error(Cause::bad_option, "--reference measures the faces of SOURCE itself, not a map of it",
+                        "leave out IMAGE and --certify, or --reference");
         Record& record = record_;
         record.command = "measure";
         input_ = options_.load(source_, record.warnings);
         const Mesh& source = input_.mesh;
         record.source = examine(source, record.warnings);
-        const Distortion d = image_.empty() ? to_texture(source) : to_mesh(source, record.warnings);
+        const Distortion d = reference_.given() ? against_reference(source)
+                             : image_.empty()   ? to_texture(source)
+                                                : to_mesh(source, record.warnings);
         record.map = map_record(d);
         if (certify_) add_bounds(source, *record.map);
         if (!d.flipped.empty() && static_cast<int>(d.flipped.size()) == source.face_count()) {
@@ -78,8 +88,9 @@ class Measure final : public Command {
                                                                 : "every face is flipped: the image is mirrored",
                                        {Things::faces, d.flipped}});
         } else {
-            const std::vector<int> other =
-                image_.empty() ? without_mirrored_charts(source, d.flipped, record.warnings) : d.flipped;
+            const std::vector<int> other = image_.empty() && !reference_.given()
+                                               ? without_mirrored_charts(source, d.flipped, record.warnings)
+                                               : d.flipped;
             warn_of(WarningKind::flipped_faces, other, "face is flipped", "faces are flipped", record.warnings);
         }
         warn_of(WarningKind::degenerate_faces, d.degenerate, "face collapses", "faces collapse", record.warnings);
@@ -161,6 +172,14 @@ class Measure final : public Command {
         return distortion_to_corners(source, corners);
     }
 
+    /// The faces' own shapes against those that they ought to have.
+    Distortion against_reference(const Mesh& source) {
+        const CornerElements elements = corner_elements(source, reference_.shapes(input_));
+        image_positions_.resize(source.vertex_count(), 3);
+        for (int v = 0; v < source.vertex_count(); ++v) image_positions_.row(v) = source.point(v);
+        return distortion(elements.operators, image_positions_, vertex_normals(source));
+    }
+
     /// For drawing, a map with seams needs one vertex per corner.
     void split_at_corners(const Mesh& mesh, const Positions& corners) {
         page_mesh_.emplace();
@@ -209,6 +228,7 @@ class Measure final : public Command {
     std::string source_, image_;
     bool certify_ = false;
     Eigen::VectorXcd map_;  ///< #V, for certify_
+    ReferenceOption reference_;
     MeshInputOptions options_;
     MeshInput input_;
     CommonOptions common_;

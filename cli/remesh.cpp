@@ -279,7 +279,7 @@ class Remesh final : public Command {
             image.texture = result.places.empty() ? mesh.texture : carried_texture(mesh, result.places);
         write_with_texture(output_, image, input_.unit, after, carried_attributes(result));
         if (!places_.empty()) write_places(places_, mesh, result.places);
-        write_page(common_.report, mesh,
+        write_page(common_, mesh,
                    {{"after", image.positions, after.face_abs_mu}, {"before", in_space(mesh), before.face_abs_mu}}, {},
                    record_, source_);
         finish(record_, common_, "after", {output_, places_, common_.json, common_.report});

@@ -3,6 +3,7 @@
 /// The one header that most users include.
 
 #include <beltrami/applications/conformal_carrier.h>
+#include <beltrami/applications/deform.h>
 #include <beltrami/applications/fitting_grid.h>
 #include <beltrami/applications/grid_on_surface.h>
 #include <beltrami/applications/reached_corners.h>

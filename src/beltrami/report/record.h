@@ -15,6 +15,7 @@
 #include <beltrami/registration/register_handles.h>
 #include <beltrami/registration/register_open.h>
 #include <beltrami/registration/register_spheres.h>
+#include <beltrami/report/deform_record.h>
 #include <beltrami/report/grid_record.h>
 #include <beltrami/report/registration_record.h>
 #include <beltrami/report/remesh_record.h>
@@ -240,6 +241,7 @@ struct Record {
     std::optional<HyperbolicRecord> hyperbolic;
     std::optional<RegistrationRecord> registration;
     std::optional<RemeshRecord> remesh;
+    std::optional<DeformRecord> deform;
     std::optional<FlowRecord> flow;
     std::optional<SurfaceFlowRecord> surface_flow;
     std::optional<GridRecord> grid;

@@ -442,6 +442,12 @@ std::string to_json(const Record& record) {
     if (record.hyperbolic) json["hyperbolic"] = to_object(*record.hyperbolic);
     if (record.registration) json["registration"] = to_object(*record.registration);
     if (record.remesh) json["remesh"] = to_object(*record.remesh);
+    if (const auto& deform = record.deform)
+        json["deform"] = {{"surface", deform->surface},
+                          {"handles", deform->handles},
+                          {"surface_mu", {{"mean", number(deform->mean_before)}, {"max", number(deform->max_before)}}},
+                          {"area_ratio", number(deform->area_ratio)},
+                          {"folds", deform->folds}};
     if (record.flow) json["flow"] = to_object(*record.flow);
     if (record.surface_flow) json["surface_flow"] = to_object(*record.surface_flow);
     if (record.grid) json["grid"] = to_object(*record.grid);

@@ -239,6 +239,11 @@ std::string to_remarks(const Record& record) {
     if (record.hyperbolic) text += lines_of(*record.hyperbolic);
     if (record.registration) text += lines_of(*record.registration);
     if (record.remesh) text += lines_of(*record.remesh);
+    if (const auto& deform = record.deform)
+        text += fmt::format(
+            "of small dilatation for the {} surface only, on whose own vertices |mu| is {:.4f} on average and {:.4f} "
+            "at most; area times {:.3f}\n",
+            deform->surface, deform->mean_before, deform->max_before, deform->area_ratio);
     if (record.flow) text += line_of(record.flow->error);
     if (record.surface_flow && record.surface_flow->coefficient) text += line_of(record.surface_flow->error);
     if (record.least_maximum)

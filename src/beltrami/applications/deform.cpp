@@ -1,0 +1,217 @@
+#include <beltrami/applications/deform.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include <beltrami/applications/handled_surface.h>
+#include <beltrami/base/error.h>
+#include <beltrami/remeshing/feature_curves.h>
+#include <beltrami/remeshing/mesh_comparison.h>
+#include <beltrami/space/tangential_map.h>
+#include <beltrami/space/uniform_map.h>
+
+namespace beltrami {
+
+namespace {
+
+constexpr double kDamping = 0.01;
+
+Mesh with_positions(const Mesh& mesh, Positions positions) {
+    Mesh result;
+    result.positions = std::move(positions);
+    result.faces = mesh.faces;
+    return result;
+}
+
+/// The same places on a surface with the same faces.
+Positions points_at(const Mesh& surface, const std::vector<MeshPoint>& places) {
+    Positions points = Positions::Zero(surface.vertex_count(), 3);
+    for (std::size_t v = 0; v < places.size(); ++v)
+        for (int i = 0; i < 3; ++i)
+            points.row(static_cast<Eigen::Index>(v)) +=
+                places[v].barycentric[i] * surface.point(places[v].vertices[i]).transpose();
+    return points;
+}
+
+}  // namespace
+
+const char* to_string(DeformedSurface surface) {
+    switch (surface) {
+        case DeformedSurface::automatic:
+            return "automatic";
+        case DeformedSurface::thin_plate:
+            return "thin-plate";
+        case DeformedSurface::rigid:
+            return "rigid";
+        case DeformedSurface::uniform:
+            return "uniform";
+        case DeformedSurface::given:
+            return "given";
+    }
+    return "";
+}
+
+void DeformOptions::validate() const {
+    if (!(last_power >= 2 && last_power <= 64)) throw Error(Cause::bad_option, "the power is not between 2 and 64");
+    if (steps_of_power < 0) throw Error(Cause::bad_option, "the number of steps is negative");
+    if (!(tolerance >= 0)) throw Error(Cause::bad_option, "the tolerance is negative");
+}
+
+struct DeformSolver::Parts {
+    const Surface& source;
+    std::vector<int> handles;
+    DeformOptions options;
+    CornerElements elements;
+    HandledSurface surfaces;
+    std::vector<MeshPoint> last;  // of the result before
+
+    Parts(const Surface& surface, std::vector<int> vertices, DeformOptions given)
+        : source(surface),
+          handles(std::move(vertices)),
+          options(std::move(given)),
+          elements(corner_elements(surface.mesh)),
+          surfaces(surface, handles) {}
+
+    Positions by_uniform_map(const Positions& places) const {
+        Positions prescribed = Positions::Zero(source.mesh.vertex_count(), 3);
+        std::vector<char> fixed(static_cast<std::size_t>(source.mesh.vertex_count()), 0);
+        for (std::size_t i = 0; i < handles.size(); ++i) {
+            fixed[handles[i]] = 1;
+            prescribed.row(handles[i]) = places.row(static_cast<Eigen::Index>(i));
+        }
+        LeastSquaresMap problem(source.mesh, elements, std::move(prescribed), std::move(fixed), Preserve::nothing);
+        return uniform_map(problem, source.mesh).map;
+    }
+
+    Positions surface_of(DeformedSurface kind, const Positions& places) const {
+        if (kind == DeformedSurface::uniform) return by_uniform_map(places);
+        Positions plate = surfaces.thin_plate(places);
+        return kind == DeformedSurface::rigid ? surfaces.as_rigid_as_possible(places, std::move(plate)) : plate;
+    }
+
+    /// The surface, and which it is.
+    std::pair<Positions, DeformedSurface> chosen(const Positions& places) const {
+        if (options.surface != DeformedSurface::automatic)
+            return {surface_of(options.surface, places), options.surface};
+        std::vector<std::array<int, 2>> fewest;
+        for (const DeformedSurface kind :
+             {DeformedSurface::thin_plate, DeformedSurface::rigid, DeformedSurface::uniform}) {
+            Positions surface = surface_of(kind, places);
+            std::vector<std::array<int, 2>> folds = fold_edges(source, surface);
+            if (folds.empty()) return {std::move(surface), kind};
+            if (fewest.empty() || folds.size() < fewest.size()) fewest = std::move(folds);
+        }
+        std::vector<int> ends;
+        for (const auto& edge : fewest) ends.insert(ends.end(), edge.begin(), edge.end());
+        throw Error(Cause::bad_boundary,
+                    "every surface that was tried through the handles has folds, " + std::to_string(fewest.size()) +
+                        " edges at least",
+                    "move the handles in smaller steps, or give a surface", {Things::edges, std::move(ends)});
+    }
+
+    /// Handles stay, the rest of the boundary slides.
+    TargetConstraints constraints(const Mesh& start) const {
+        TargetConstraints result;
+        std::vector<char> fixed(static_cast<std::size_t>(start.vertex_count()), 0);
+        for (const int v : handles) fixed[v] = 1;
+        const FeatureCurves border = feature_curves(start, source.topology, {});
+        for (const int v : border.corners) fixed[v] = 1;
+        for (const FeatureCurves::Curve& curve : border.curves) {
+            Positions points(static_cast<Eigen::Index>(curve.vertices.size()), 3);
+            for (std::size_t i = 0; i < curve.vertices.size(); ++i)
+                points.row(static_cast<Eigen::Index>(i)) = start.point(curve.vertices[i]);
+            const int index = static_cast<int>(result.curves.size());
+            result.curves.push_back(std::make_shared<PolylineCurve>(points, curve.closed));
+            for (const int v : curve.vertices)
+                if (!fixed[v]) result.sliding.push_back({v, index});
+        }
+        for (int v = 0; v < start.vertex_count(); ++v)
+            if (fixed[v]) result.fixed.push_back(v);
+        return result;
+    }
+
+    void relax(TangentialMap& map, double first_power) const {
+        map.set_damping(kDamping);
+        map.set_progress(options.progress);
+        for (double power = first_power; power <= options.last_power; power *= 2)
+            map.relax(power, options.steps_of_power, options.tolerance);
+    }
+
+    /// @param begin positions of the vertices on the target, without folds
+    Deformation along(const MeshTarget& target, const Mesh& begin, const TargetConstraints& held, double first_power) {
+        const Surface start(begin);
+        TangentialMap map(start, elements.operators, target, held, 0);
+        if (const std::vector<int> folded = map.folded(); !folded.empty()) {
+            std::vector<int> faces;
+            for (const int s : folded) faces.push_back(elements.operators.faces[s]);
+            faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+            throw Error(Cause::not_solved, std::to_string(faces.size()) + " faces fold where the map begins",
+                        "move the handles in smaller steps", {Things::faces, std::move(faces)});
+        }
+        relax(map, first_power);
+        Deformation result;
+        result.positions = map.positions();
+        result.places = beltrami::places_of(map.points());
+        result.surface = *target.mesh();
+        const Positions normals = normals_of(map.points());
+        result.distortion = distortion(elements.operators, result.positions, normals);
+        result.of_surface = distortion(elements.operators, begin.positions, vertex_normals(begin));
+        result.folds = fold_edges(source, result.positions);
+        result.area_ratio = surface_area(with_positions(source.mesh, result.positions)) / surface_area(source.mesh);
+        result.steps = map.steps();
+        result.factorizations = map.factorization_count() + surfaces.factorization_count();
+        return result;
+    }
+};
+
+DeformSolver::DeformSolver(const Surface& source, std::vector<int> handles, DeformOptions options) {
+    options.validate();
+    for (const int v : handles)
+        if (v < 0 || v >= source.mesh.vertex_count())
+            throw Error(Cause::bad_boundary, "there is no vertex " + std::to_string(v), "", {Things::vertices, {v}});
+    parts_ = std::make_unique<Parts>(source, std::move(handles), std::move(options));
+}
+
+DeformSolver::~DeformSolver() = default;
+
+Deformation DeformSolver::solve(const Positions& places) {
+    Parts& p = *parts_;
+    const auto [positions, kind] = p.chosen(places);
+    const Mesh surface = with_positions(p.source.mesh, positions);
+    const MeshTarget target(surface);
+    const TargetConstraints held = p.constraints(surface);
+    Deformation result;
+    if (!p.last.empty()) {
+        try {  // from the last one's places, the largest power at once
+            result = p.along(target, with_positions(surface, points_at(surface, p.last)), held, p.options.last_power);
+            result.warm = true;
+        } catch (const Error& error) {
+            if (error.cause() == Cause::cancelled) throw;
+            p.last.clear();
+        }
+    }
+    if (!result.warm) result = p.along(target, surface, held, 2);
+    result.of_surface = distortion(p.elements.operators, surface.positions, vertex_normals(surface));
+    result.kind = kind;
+    p.last = result.places;
+    return result;
+}
+
+Deformation DeformSolver::solve_onto(const MeshTarget& target, const Positions& places) {
+    Parts& p = *parts_;
+    const Positions plate = p.surfaces.thin_plate(places);
+    const Mesh begin = with_positions(p.source.mesh, positions_of(nearest_points(target, plate)));
+    TargetConstraints held;
+    held.fixed = p.handles;
+    std::vector<char> fixed(static_cast<std::size_t>(begin.vertex_count()), 0);
+    for (const int v : p.handles) fixed[v] = 1;
+    for (const auto& loop : p.source.topology.boundary_loops)
+        for (const int v : loop)
+            if (!fixed[v]) held.fixed.push_back(v);
+    Deformation result = p.along(target, begin, held, 2);
+    result.kind = DeformedSurface::given;
+    return result;
+}
+
+}  // namespace beltrami

@@ -1,0 +1,64 @@
+"""beltrami deform: a surface in space deformed by handles."""
+
+import pathlib
+import unittest
+
+import numpy as np
+
+from support import Command, read_obj, write_obj
+from test_tori import torus
+
+
+class Deform(Command):
+    def setUp(self):
+        super().setUp()
+        points, faces = torus(2, 1, 32, 16)
+        keep = np.linalg.norm(points[faces].mean(1) - [-3, 0, 0], axis=1) > 0.85
+        used = np.unique(faces[keep])
+        self.points, self.faces = points[used], np.searchsorted(used, faces[keep])
+        write_obj(self.path("a.obj"), self.points, self.faces)
+        edges = np.concatenate([self.faces[:, [0, 1]], self.faces[:, [1, 2]], self.faces[:, [2, 0]]])
+        keys, count = np.unique(np.sort(edges, 1), axis=0, return_counts=True)
+        self.loop = np.unique(keys[count == 1])
+
+    def pins(self, angle, shift):
+        p = self.points[self.loop]
+        c, s = np.cos(angle), np.sin(angle)
+        p = np.column_stack([p[:, 0] - shift, c * p[:, 1] - s * p[:, 2], s * p[:, 1] + c * p[:, 2]])
+        pathlib.Path(self.path("pins.txt")).write_text(
+            "".join(f"{v} {x!r} {y!r} {z!r}\n" for v, (x, y, z) in zip(self.loop.tolist(), p.tolist())))
+        return p
+
+    def deform(self, *arguments):
+        return self.record("deform", self.path("a.obj"), "--pin", self.path("pins.txt"), "-o", self.path("out.obj"), *arguments)
+
+    def test_a_loop_is_turned(self):
+        places = self.pins(1.0, 0.5)
+        record = self.deform()
+        out, _, faces = read_obj(self.path("out.obj"))
+        np.testing.assert_array_equal(faces, self.faces)
+        np.testing.assert_allclose(out[self.loop], places, atol=1e-9)
+        self.assertEqual(record["deform"]["surface"], "thin-plate")
+        self.assertEqual(record["deform"]["handles"], len(self.loop))
+        self.assertEqual(record["deform"]["folds"], [])
+        self.assertEqual(record["map"]["flipped"], 0)
+        self.assertLess(record["map"]["mu"]["max"], 0.7 * record["deform"]["surface_mu"]["max"])
+        rigid = self.deform("--surface", "rigid")
+        self.assertLess(rigid["map"]["mu"]["mean"], record["map"]["mu"]["mean"])
+        # Onto the surface that has been found: the same one again.
+        write_obj(self.path("onto.obj"), out, faces)
+        onto = self.deform("--onto", self.path("onto.obj"))
+        self.assertEqual(onto["deform"]["surface"], "given")
+        self.assertEqual(onto["map"]["flipped"], 0)
+
+    def test_bad_handles_are_refused(self):
+        path = pathlib.Path(self.path("pins.txt"))
+        path.write_text("0 1 2 3\n0 1 2 4\n")
+        arguments = ("deform", self.path("a.obj"), "--pin", self.path("pins.txt"), "-o", self.path("out.obj"))
+        self.assertIn("twice", self.run_command(*arguments, code=5).stderr)
+        path.write_text("0 1 2\n")
+        self.assertIn("pins.txt:1", self.run_command(*arguments, code=3).stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
