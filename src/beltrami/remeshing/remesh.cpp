@@ -21,7 +21,7 @@ namespace {
 constexpr double kNeedle = 0.999;  // |μ| of a face from which on steps begin strongly damped
 constexpr double kNeedleDamping = 1e5;
 constexpr int kFirstSteps = 6, kPowerSteps = 8, kRounds = 25, kStepsOfRound = 2;
-constexpr double kTolerance = 1e-3;
+constexpr double kTolerance = 1e-3, kRoundTolerance = 1e-4;
 
 double diagonal_of(const Mesh& mesh) {
     return (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).norm();
@@ -169,8 +169,8 @@ RemeshedSurface remesh(const Surface& surface, const Positions& reference, const
     if (options.power > 2) map.relax(options.power, kPowerSteps, kTolerance);
     const double allowed = options.max_distance * diagonal_of(surface.mesh);
     for (; result.rounds < kRounds && !result.settled; ++result.rounds) {
-        result.settled = map.hold_within(allowed).vertices == 0 && map.at_rest();
-        if (!result.settled) map.relax(options.power, kStepsOfRound, kTolerance);
+        result.settled = map.hold_within(allowed).vertices == 0;
+        if (!result.settled) map.relax(options.power, kStepsOfRound, kRoundTolerance);
     }
     result.positions = map.positions();
     result.places = places_of(map.points());

@@ -37,7 +37,7 @@ struct RemeshedSurface {
     std::vector<MeshPoint> places;  ///< #V: where that is
     double distance = 0;            ///< the largest between image and surface, of the diagonal
     int rounds = 0, steps = 0, factorizations = 0;
-    bool settled = false;         ///< at rest within the distance before the rounds were over
+    bool settled = false;         ///< the distance was kept before the rounds were over
     std::vector<int> unresolved;  ///< faces whose normals oppose the surface's at the end
     std::vector<int> opposed_before;
     Warnings warnings;

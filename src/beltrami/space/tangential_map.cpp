@@ -353,9 +353,8 @@ int TangentialMap::relax(double power, int max_steps, double tolerance) {
             throw Error(Cause::cancelled, "cancelled after step " + std::to_string(steps_));
         damp(taken.length);
         futile = taken.length == 0 ? futile + 1 : 0;
-        at_rest_ =
-            (taken.length > kShort && taken.fallen < tolerance && damping_ < kUndamped) || futile >= kFutileSteps;
-        if (at_rest_) return count;
+        const bool at_rest = taken.length > kShort && taken.fallen < tolerance && damping_ < kUndamped;
+        if (at_rest || futile >= kFutileSteps) return count;
     }
     return max_steps;
 }

@@ -40,8 +40,6 @@ class TangentialMap {
     /// @return how many were taken
     /// @throw Error not_solved if the start folds; cancelled
     int relax(double power, int max_steps, double tolerance);
-    /// Whether relax() ended because a step hardly lowered F, not because of their number.
-    bool at_rest() const { return at_rest_; }
 
     /// How strongly steps are damped at first: 1; for needles 1e5.
     void set_damping(double damping) { damping_ = damping; }
@@ -105,7 +103,6 @@ class TangentialMap {
     ElementSystem system_;
     Eigen::VectorXd gradient_;
     int steps_ = 0;
-    bool at_rest_ = false;
 };
 
 }  // namespace beltrami
