@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import argparse
 import hashlib
+import importlib
 import json
 import os
 import pickle
@@ -192,13 +193,13 @@ def distance_matrix(
             done += 1
             if progress is not None:
                 progress(done, len(pairs))
-    result = Distances(labels, *(np.zeros((n, n)) for _ in range(3)))
+    result = Distances(labels, np.zeros((n, n)), np.zeros((n, n)), np.zeros((n, n)))
     for i, j in pairs:
-        row = found.get(digests[i], digests[j])
-        assert row is not None
-        for matrix, value in zip((result.distance, result.lower, result.upper), row):
+        known = found.get(digests[i], digests[j])
+        assert known is not None
+        for matrix, value in zip((result.distance, result.lower, result.upper), known):
             matrix[i, j] = matrix[j, i] = value
-        if not row[3]:
+        if not known[3]:
             result.unsettled.append((i, j))
     return result
 
@@ -220,9 +221,8 @@ def _prepared(path: str, chart: Optional[str], outer: int) -> _core.Surface:
     """The surface of a file with its charts, from the checkpoint where it is there."""
     if chart is not None:
         try:
-            surface = pickle.loads(Path(chart).read_bytes())
-            assert isinstance(surface, _core.Surface)
-            return surface
+            kept: _core.Surface = pickle.loads(Path(chart).read_bytes())
+            return kept
         except FileNotFoundError:
             pass
     try:
@@ -271,8 +271,7 @@ def _pairs(
                     surfaces[scan] = _prepared(files[scan], charts[scan], outer)
             yield (i, j), _distance(surfaces[i], surfaces[j], (names[i], names[j]), outer, options)
         return
-    from distributed import as_completed
-
+    distributed = _distributed()
     needed = sorted({scan for pair in waiting for scan in pair})
     prepared = {scan: client.submit(_on_worker, _prepared, files[scan], charts[scan], outer, pure=False) for scan in needed}
     futures = {
@@ -280,7 +279,7 @@ def _pairs(
         for i, j in waiting
     }
     try:
-        for future in as_completed(futures):
+        for future in distributed.as_completed(futures):
             yield futures[future], future.result()
             future.release()
     finally:  # of an error: what is left is not computed
@@ -303,10 +302,9 @@ def _results(function: Callable[[Any], Any], jobs: Mapping[str, Any], client: An
         for name, argument in jobs.items():
             yield name, _outcome(function, name, argument)
         return
-    from distributed import as_completed
-
+    distributed = _distributed()
     futures = {client.submit(_on_worker, _outcome, function, name, argument, pure=False): name for name, argument in jobs.items()}
-    for future in as_completed(futures):
+    for future in distributed.as_completed(futures):
         name = futures[future]
         if future.status == "error":  # the workers died of it, time and again
             error = future.exception()
@@ -314,6 +312,11 @@ def _results(function: Callable[[Any], Any], jobs: Mapping[str, Any], client: An
         else:
             yield name, future.result()
         future.release()
+
+
+def _distributed() -> Any:
+    """Dask's package, which is asked for where there is a cluster."""
+    return importlib.import_module("distributed")
 
 
 # What is kept.
@@ -420,12 +423,12 @@ def main(arguments: Optional[Sequence[str]] = None) -> int:
     given = parser.parse_args(arguments)
     client = None
     if given.scheduler or given.scheduler_file or given.workers:
-        from distributed import Client, LocalCluster
-
+        distributed = _distributed()
         if given.scheduler_file:
-            client = Client(scheduler_file=given.scheduler_file)
+            client = distributed.Client(scheduler_file=given.scheduler_file)
         else:
-            client = Client(given.scheduler or LocalCluster(n_workers=given.workers, threads_per_worker=1, dashboard_address=None))
+            local = {"n_workers": given.workers, "threads_per_worker": 1, "dashboard_address": None}
+            client = distributed.Client(given.scheduler or distributed.LocalCluster(**local))
     try:
         found = distance_matrix(given.meshes, client, given.output, given.outer, progress=_Bar())
     except Error as error:

@@ -13,10 +13,10 @@ namespace beltrami::python {
 
 namespace {
 
-py::object issued(Warnings warnings, Mesh mesh) {
+Mesh issued(const Warnings& warnings, Mesh mesh) {
     for (const Warning& warning : warnings)
         if (PyErr_WarnEx(PyExc_UserWarning, warning.sentence.c_str(), 2) != 0) throw py::error_already_set();
-    return py::cast(checked(std::move(mesh)));
+    return checked(std::move(mesh));
 }
 
 void write(const std::filesystem::path& path, const py::object& mesh, const py::object& map) {
@@ -40,7 +40,7 @@ void bind_files(py::module_& m) {
         "read_mesh",
         [](const std::filesystem::path& path) {
             LoadedMesh loaded = without_lock([&] { return read_mesh(path); });
-            return issued(std::move(loaded.warnings), std::move(loaded.mesh));
+            return issued(loaded.warnings, std::move(loaded.mesh));
         },
         py::arg("path"),
         "Reads .obj, .ply, .off or .stl: vertices and faces in the order of the file.\n\nWhat the file holds and the "

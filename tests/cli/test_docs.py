@@ -14,9 +14,11 @@ from support import BELTRAMI, SCHEMA
 
 ROOT = pathlib.Path(__file__).parents[2]
 PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md")])
-COMMANDS = ("info", "measure", "map", "flatten", "uniformize", "flow", "grid", "distance", "apply", "register", "transfer", "remesh", "deform")
+COMMANDS = ("info", "measure", "map", "flatten", "uniformize", "flow", "grid", "distance", "apply", "register", "transfer", "remesh", "deform", "batch")
 # Options of other programs in lines that do not call the command.
-FOREIGN = {"--install", "--prefix", "--help", "--version"}
+FOREIGN = {"--install", "--prefix", "--help", "--version", "--no-build-isolation"}
+# Of Slurm, Dask and the cohorts in Python.
+FOREIGN |= {"--ntasks", "--cpus-per-task", "--time", "--scheduler", "--scheduler-file", "--nthreads", "--death-timeout", "--workers"}
 
 
 def anchors(path):
@@ -122,8 +124,8 @@ class Options(unittest.TestCase):
         for command, known in self.known.items():
             with self.subTest(command=command):
                 self.assertIn("--quiet", known)
-                self.assertEqual(command not in ("apply", "transfer"), {"--json", "--threads"} <= known)
-                self.assertEqual(command not in ("info", "distance", "apply", "transfer"), "--report" in known)
+                self.assertEqual(command not in ("apply", "transfer", "batch"), {"--json", "--threads"} <= known)
+                self.assertEqual(command not in ("info", "distance", "apply", "transfer", "batch"), "--report" in known)
 
 
 if __name__ == "__main__":
