@@ -233,7 +233,8 @@ TEST(Remesh, RefusesImpossibleOptions) {
 TEST(Remesh, APuncturedTorus) {
     const auto path = test::real_mesh("punctured_torus.obj");
     if (path.empty()) GTEST_SKIP();
-    const Mesh mesh = read_mesh(path.string()).mesh;
+    Mesh mesh = read_mesh(path.string()).mesh;
+    mesh.texture.reset();  // its seams would hold vertices
     const Surface surface(mesh);
     RemeshOptions options;
     options.power = 2;
