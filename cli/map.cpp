@@ -18,6 +18,7 @@
 #include "page.h"
 #include "phi_option.h"
 #include "slide_option.h"
+#include "space_method.h"
 #include "start_map_option.h"
 #include "words.h"
 
@@ -36,9 +37,11 @@ class Map final : public Command {
         output_.add_to(*app);
         std::vector<std::string> methods = baseline_names();
         methods.insert(methods.begin(), "extremal");
-        app->add_option(
-               "--method", method_,
-               "lscm, arap and mips can leave the boundary free; the others need every boundary vertex prescribed")
+        methods.emplace_back(SpaceMethod::kName);
+        app->add_option("--method", method_,
+                        "lscm, arap and mips can leave the boundary free; lsqc goes into space, see --in-space; the "
+                        "others need every "
+                        "boundary vertex prescribed")
             ->check(CLI::IsMember(methods))
             ->capture_default_str();
         app->add_option("--minimize", minimize_,
@@ -65,6 +68,7 @@ class Map final : public Command {
         homotopy_.add_to(*app);
         start_map_.add_to(*app);
         iteration_.add_to(*app);
+        space_.add_to(*app);
         metric_.add_to(*app);
         phi_.add_to(*app);
         std::vector<std::string> others = baseline_names();
@@ -89,6 +93,11 @@ class Map final : public Command {
         Record& record = record_;
         record.command = "map";
         input_ = options_.load(source_, record.warnings);
+        if (method_ == SpaceMethod::kName) {
+            cut_folded_quads(input_, record.warnings);
+            space_.run(input_, source_, output_.path(), common_, record);
+            return 0;
+        }
         boundary_.load(input_);
         homotopy_.load();
         metric_.load(input_);
@@ -179,6 +188,22 @@ class Map final : public Command {
         BoundaryCondition boundary = boundary_.values(shape);
         free_ = unprescribed_boundary(boundary, shape.surface());
         return boundary;
+    }
+
+    void check_in_space() const {
+        const auto refuse = [](bool given, const std::string& what) {
+            if (given)
+                throw Error(Cause::bad_option, what + " says nothing of --method lsqc, which goes into space",
+                            "leave one of them out");
+        };
+        refuse(boundary_.given(), "--boundary, --hole or --pin");
+        refuse(onto_.given() || slide_.given(), "--onto or --slide");
+        refuse(homotopy_.given() || start_map_.given(), "--turns, --waypoints or --start-map");
+        refuse(metric_.given(), "--metric");
+        refuse(phi_.given(), "--phi");
+        refuse(each_component_, "--each-component");
+        refuse(certify_.has_value() || slack_ > 0 || minimize_ != "K", "--certify, --slack or --minimize");
+        refuse(!compare_.empty(), "--compare");
     }
 
     void check_each_component() const {
@@ -303,11 +328,18 @@ class Map final : public Command {
         add(slide_.inputs());
         add(start_map_.inputs());
         add(metric_.inputs());
+        add(space_.inputs());
         inputs.push_back({"SOURCE", source_});
         std::vector<NamedFile> outputs = onto_.outputs();
         outputs.insert(outputs.begin(), {"-o", output_.path()});
         outputs.push_back(phi_.output());
         common_.check_files(inputs, std::move(outputs));
+        if (method_ == SpaceMethod::kName) {
+            check_in_space();
+            return;
+        }
+        if (const std::string stray = space_.stray(); !stray.empty())
+            throw Error(Cause::bad_option, stray + " belongs to --method lsqc", "leave it out");
         if (each_component_) check_each_component();
         iteration_.check({method_, (onto_.given() && !onto_.prescribes()) || slide_.given()});
         if (start_map_.given() && homotopy_.given())
@@ -405,6 +437,7 @@ class Map final : public Command {
     double slack_ = 0;
     bool each_component_ = false;
     std::vector<std::string> compare_;
+    SpaceMethod space_;
     MeshInputOptions options_;
     MeshInput input_;
     double unit_ = 1;        // of the images
