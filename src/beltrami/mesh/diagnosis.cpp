@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+#include <numeric>
 #include <utility>
 
 #include <beltrami/base/disjoint_sets.h>
@@ -17,7 +17,8 @@ namespace {
 constexpr int kListedAtMost = 10;
 /// Area over the square of the longest edge below which a face has no area: pure rounding, whatever its size.
 constexpr double kZeroAreaRatio = 1e-14;
-constexpr double kSliverAngle = 0.5 * std::numbers::pi / 180.0;
+/// tan of 0.5 degrees.
+constexpr double kSliverTangent = 0.008726867790758755;
 
 /// "3, 8, 9 and 12 more": the first few items, where each item is @p width consecutive indices.
 std::string list(const std::vector<int>& indices, int width = 1) {
@@ -125,12 +126,19 @@ class Examination {
     }
 
     void check_duplicates() {
+        // Faces by their smallest corner: duplicates lie among the few of one vertex.
+        std::vector<int> offsets(mesh_.vertex_count() + 1, 0);
+        for (int face = 0; face < mesh_.face_count(); ++face) ++offsets[smallest_corner(face) + 1];
+        std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
         std::vector<std::pair<std::array<int, 4>, int>> keys(mesh_.face_count());
-        for (int face = 0; face < mesh_.face_count(); ++face) keys[face] = {sorted_corners(face), face};
-        std::sort(keys.begin(), keys.end());
+        std::vector<int> end(offsets.begin(), offsets.end() - 1);
+        for (int face = 0; face < mesh_.face_count(); ++face)
+            keys[end[smallest_corner(face)]++] = {sorted_corners(face), face};
         std::vector<int> bad;
-        for (std::size_t i = 1; i < keys.size(); ++i) {
-            if (keys[i].first == keys[i - 1].first) bad.push_back(keys[i].second);
+        for (int vertex = 0; vertex < mesh_.vertex_count(); ++vertex) {
+            std::sort(keys.begin() + offsets[vertex], keys.begin() + offsets[vertex + 1]);
+            for (int i = offsets[vertex] + 1; i < offsets[vertex + 1]; ++i)
+                if (keys[i].first == keys[i - 1].first) bad.push_back(keys[i].second);
         }
         std::sort(bad.begin(), bad.end());
         if (!bad.empty()) {
@@ -257,7 +265,7 @@ class Examination {
                 zero.push_back(face);
                 continue;
             }
-            if (faces_.degree(face) == 3 && shape.smallest_angle < kSliverAngle) slivers.push_back(face);
+            if (faces_.degree(face) == 3 && shape.sliver) slivers.push_back(face);
             if (shape.reflex) reflex.push_back(face);
             if (planar) (shape.upward ? up : down).push_back(face);
         }
@@ -287,9 +295,9 @@ class Examination {
 
     struct Shape {
         double area_ratio;  ///< area / longest edge²
-        double smallest_angle;
-        bool upward;  ///< normal has positive z
-        bool reflex;  ///< a corner of the quad is straight or turns against the others
+        bool sliver;        ///< has an angle below 0.5 degrees
+        bool upward;        ///< normal has positive z
+        bool reflex;        ///< a corner of the quad is straight or turns against the others
     };
 
     /// Measures a face after scaling its longest edge to 1, so that neither huge nor tiny meshes over- or underflow.
@@ -298,7 +306,7 @@ class Examination {
         const int degree = static_cast<int>(corners.size());
         double scale = 0.0;
         for (const int vertex : corners) scale = std::max(scale, mesh_.point(vertex).cwiseAbs().maxCoeff());
-        if (scale == 0.0) return {0.0, 0.0, true, false};
+        if (scale == 0.0) return {0.0, false, true, false};
         std::array<Eigen::Vector3d, 4> p;
         for (int i = 0; i < degree; ++i) p[i] = mesh_.point(corners[i]) / scale;
         std::array<Eigen::Vector3d, 4> sides;
@@ -307,7 +315,7 @@ class Examination {
             sides[i] = p[(i + 1) % degree] - p[i];
             longest = std::max(longest, sides[i].cwiseAbs().maxCoeff());
         }
-        if (longest == 0.0) return {0.0, 0.0, true, false};
+        if (longest == 0.0) return {0.0, false, true, false};
         double longest_square = 0.0;
         for (int i = 0; i < degree; ++i) {
             sides[i] /= longest;
@@ -315,15 +323,16 @@ class Examination {
         }
         Eigen::Vector3d area = 0.5 * sides[0].cross(sides[1]);
         if (degree == 4) area += 0.5 * sides[2].cross(sides[3]);
-        double angle = std::numbers::pi;
-        bool reflex = false;
+        bool sliver = false, reflex = false;
         for (int i = 0; i < degree; ++i) {
             const Eigen::Vector3d back = -sides[(i + degree - 1) % degree];
             reflex = reflex || (degree == 4 && sides[i].cross(back).dot(area) < -1e-12);
-            angle = std::min(angle, std::atan2(back.cross(sides[i]).norm(), back.dot(sides[i])));
+            sliver = sliver || back.cross(sides[i]).norm() < kSliverTangent * back.dot(sides[i]);
         }
-        return {area.norm() / longest_square, angle, area.z() > 0.0, reflex};
+        return {area.norm() / longest_square, sliver, area.z() > 0.0, reflex};
     }
+
+    int smallest_corner(int face) const { return *std::min_element(faces_[face].begin(), faces_[face].end()); }
 
     std::array<int, 4> sorted_corners(int face) const {
         std::array<int, 4> corners{-1, -1, -1, -1};

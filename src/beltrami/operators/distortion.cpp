@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
+#include <vector>
 
 #include <beltrami/base/parallel.h>
 #include <beltrami/mesh/planar.h>
@@ -87,25 +89,25 @@ MuStatistics mu_statistics(const Eigen::VectorXcd& mu, const std::vector<double>
     Eigen::VectorXd size(n);
     for (int s = 0; s < n; ++s) size[s] = std::abs(mu[s]);
     double total = 0, sum = 0, largest = kNaN;
-    std::vector<int> order;
-    order.reserve(n);
+    std::vector<std::pair<double, int>> order;
+    order.reserve(static_cast<std::size_t>(n));
     for (int s = 0; s < n; ++s) {
         largest = std::fmax(largest, size[s]);
         if (!std::isfinite(size[s])) continue;
         total += weights[s];
         sum += weights[s] * size[s];
-        order.push_back(s);
+        order.emplace_back(size[s], s);
     }
     if (order.empty()) return {kNaN, kNaN, kNaN, largest};
     const double mean = sum / total;
     double variance = 0;
-    for (const int s : order) variance += weights[s] * (size[s] - mean) * (size[s] - mean);
-    std::sort(order.begin(), order.end(), [&](int a, int b) { return size[a] != size[b] ? size[a] < size[b] : a < b; });
-    double below = 0, p99 = size[order.back()];
-    for (const int s : order) {
+    for (const auto& [at, s] : order) variance += weights[s] * (at - mean) * (at - mean);
+    std::sort(order.begin(), order.end());
+    double below = 0, p99 = order.back().first;
+    for (const auto& [at, s] : order) {
         below += weights[s];
         if (below >= 0.99 * total) {
-            p99 = size[s];
+            p99 = at;
             break;
         }
     }

@@ -21,6 +21,10 @@ constexpr int kCoarsePart = 7, kFewestTriangles = 1'200, kMostTriangles = 5'000;
 /// The iteration ends there at this part of its bracket: a start need not be exact.
 constexpr double kWithinBracket = 0.01;
 
+/// Polynomials of this degree, until φ changes by less than this, at most so often.
+constexpr int kRoughDegree = 8, kRoughIterations = 12;
+constexpr double kRoughChange = 0.2;
+
 /// The prescribed values along the canonical circle.
 struct CircleValues {
     std::vector<double> angle;  ///< increasing, from 0 to below 2π, relative to the first
@@ -85,8 +89,19 @@ CoarseStart coarse_start(const Surface& source, const BoundaryCondition& boundar
     coarse_options.within_bracket = kWithinBracket;
     adapt_to_smooth(options, coarse_options);
     problem.map_step().set_near(false);
-    HamiltonIteration iteration(problem.map_step(), problem.coefficient_step(), coarse_options);
     CoarseStart result;
+    if (largest_degree > kRoughDegree) {
+        // Where φ still turns about, few functions do as well, and cost a part of all.
+        HamiltonIteration::Options rough = coarse_options;
+        rough.tolerance = kRoughChange;
+        rough.k_tolerance = kRoughChange * kRoughChange;
+        rough.max_iterations = kRoughIterations;
+        HamiltonIteration(problem.map_step(), problem.coefficient_step(), rough)
+            .run(result.state, std::make_unique<PolynomialSpace>(kRoughDegree, kRoughDegree));
+        result.state.space = std::make_unique<PolynomialSpace>(grown ? largest_degree : kRoughDegree, largest_degree);
+        result.state.direction.conservativeResizeLike(Eigen::VectorXcd::Zero(result.state.space->size()));
+    }
+    HamiltonIteration iteration(problem.map_step(), problem.coefficient_step(), coarse_options);
     // The degrees that the fine mesh resolves: on the coarse one the highest are rough, which is good enough for a
     // start.
     iteration.run(result.state, grown ? std::make_unique<PolynomialSpace>(largest_degree, largest_degree)

@@ -156,7 +156,7 @@ double HamiltonIteration::first_step() const {
            options_.step_below_change;
 }
 double HamiltonIteration::growing_step() const {
-    return options_.within_bracket > 0 ? options_.step_below_change * kFirstStepWithin : 0.0;
+    return options_.within_bracket > 0 ? options_.step_below_change * kFirstStepWithin : options_.growing_step;
 }
 
 /// Takes larger spaces while they raise k noticeably, or instead of a preliminary one; returns whether any did.

@@ -33,6 +33,8 @@ class HamiltonIteration {
         /// data, for which k is wanted to all digits. 0: never.
         double within_bracket = 0, tight = 0;
         double growth = 1e-5;
+        /// The c-step in a larger space is solved to this change of φ, k then to its square.
+        double growing_step = 0;
         /// All has settled too once k stays and the bracket is narrow for so many steps, though φ still moves.
         int quiet_steps = 6;
         int anderson_window = 5;

@@ -10,6 +10,8 @@ constexpr double kTolerance = 1e-8;
 /// On a disk without singularities: k, of second order in the direction of φ, is then exact to 1e-8, and the map to far
 /// less than the error of the mesh.
 constexpr double kSmoothTolerance = 1e-5;
+/// Larger spaces are tried there to this change of φ: k is then exact to a hundredth of what lets them grow.
+constexpr double kSmoothGrowingStep = 3e-4;
 /// Acceleration begins there as soon as φ changes by less than itself.
 constexpr double kAccelerateSmoothBelow = 1;
 /// Where boundaries slide the error of the mesh is far larger; k, of second order in the direction of φ, settles to
@@ -30,6 +32,7 @@ HamiltonIteration::Options iteration_options(const ExtremalOptions& options) {
 
 void adapt_to_smooth(const ExtremalOptions& options, HamiltonIteration::Options& how) {
     how.accelerate_below = kAccelerateSmoothBelow;
+    how.growing_step = kSmoothGrowingStep;
     if (!(options.tolerance > 0)) how.tolerance = std::max(how.tolerance, kSmoothTolerance);
 }
 

@@ -25,7 +25,7 @@ constexpr double kTight = 2;
 /// Up to this they may be seen on the coarse mesh alone. That they are not on the fine one is shown by its bracket:
 /// that of a smooth problem falls like 1/triangles (three lobes: 10.8, 10.5, 10.4 times that on any mesh), that of a
 /// singular one does not (four points of a disk: 3.5, then 11.5; a half-plane: 20, then 102). So much more is taken for
-/// smooth.
+/// smooth. In a chart that is not exact noise does not let it fall.
 constexpr double kPerhapsTight = 16, kFallsLikeSmooth = 1.5;
 /// Directions of held vertices that turn by less (radians) are kept.
 constexpr double kTurned = 0.02;
@@ -95,7 +95,7 @@ HamiltonState PoleChoice::choose(ProblemChart charts, bool plain) {
         CoarseStart coarse = coarse_start(source, boundary_, problem_.chart(), problem_.phase(),
                                           problem_.largest_degree(), options_, instead_ ? 0 : kCoarseStartPays);
         const bool tight = coarse.bracket_by_triangles < kTight;
-        if (tight || (!instead_ && coarse.bracket_by_triangles < kPerhapsTight)) {
+        if (tight || (problem_.chart().exact && coarse.bracket_by_triangles < kPerhapsTight)) {
             smooth_ = true;
             state = std::move(coarse.state);
             withheld_ = std::move(singularities);
