@@ -44,6 +44,7 @@ constexpr double kWide = 0.01;
 
 /// Why the bracket is wide.
 std::string cause_of(const ExtremalMap& map) {
+    if (map.differential.tabulated()) return "values crowd";
     if (map.termination == Termination::below_bound) return "the mesh does not show the map";
     if (map.termination == Termination::unconfirmed) return "the mesh does not resolve φ";
     if (map.K < (1 + kWide) * map.K_lower) return "";

@@ -134,6 +134,13 @@ class CrowdedScans(Command):
             self.assertNotEqual(record["solve"]["termination"], "converged")
             self.assertTrue(record["warnings"])
 
+    def test_a_ring_of_which_one_loop_is_prescribed(self):
+        (self.folder / "target.json").write_text(domain({"circle": [0, 0, 1]}, [[0, 0, 0.3]]))
+        record = self.record("map", MESHES / "amoeba2.obj", "--onto", self.path("target.json"), "--hole", "1=disk:0,0,.3",
+                             "-o", self.path("o.obj"))
+        self.assertEqual(record["map"]["flipped"], 0)
+        self.assertLess(record["map"]["K"], 1.05 * record["map"]["K_lower"])
+
     def test_four_marks(self):
         loop = boundary_of(read_faces(MESHES / "camel_b.obj")[2])
         corners = [(0, 0), (2, 0), (2, 1), (0, 1)]

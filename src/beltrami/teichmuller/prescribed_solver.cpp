@@ -315,7 +315,10 @@ ExtremalMap PrescribedSolver::record() const {
         {Bound::Kind::mesh_harmonic, mesh_harmonic_bound(source_.operators, result.harmonic), Bound::Of::mesh, true});
     record_attained(result);
     record_shortcomings(result);
-    record_proofs(source_, boundary_, options_, result);
+    // Where values crowd, what φ shows is the least of what is known.
+    ExtremalOptions how = options_;
+    if (poles_.products() && !how.prove) how.prove = true;
+    record_proofs(source_, boundary_, how, result);
     withdraw_unconfirmed(result);
     return result;
 }
