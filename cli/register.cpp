@@ -37,9 +37,8 @@ class Register final : public Command {
             ->type_name("OUT");
         landmarks_.add_to(*app);
         curves_.add_to(*app);
-        app->add_option(
-               "--method", method_,
-               "extremal: least dilatation; lp: least Lᵖ norm of abs(mu), for closed surfaces, with curves too")
+        app->add_option("--method", method_,
+                        "extremal: least dilatation; lp: least Lᵖ norm of abs(mu), with curves too")
             ->check(CLI::IsMember({"extremal", "lp"}));
         app->add_option("--p", p_, "p of that norm; the larger the more even abs(mu) becomes")
             ->check(CLI::Range(2.0, 64.0))
@@ -135,15 +134,14 @@ class Register final : public Command {
     void run_least_lp(const Surface& source, const Surface& target, const std::vector<SurfaceLandmark>& landmarks,
                       const std::vector<CurvePair>& curves, const RegistrationOptions& given,
                       const MeshInput& source_input, const MeshInput& target_input) {
-        if (!is_closed(source))
-            throw Error(Cause::bad_option, "least Lᵖ maps and curves are for closed surfaces",
-                        "fill the holes of both surfaces, or leave --method and --curves out");
         if (!given.waypoints.empty())
             throw Error(Cause::bad_option, "--waypoints belong to --method extremal",
                         "lead curves instead, or begin with --start-map");
         CurveRegistrationOptions options;
         options.p = p_;
         options.start = given.start;
+        options.outer_loop = outer_;
+        options.target_outer_loop = target_outer_;
         if (max_iterations_) options.flow.max_iterations = *max_iterations_;
         const LpRegistration found = register_least_lp(source, target, landmarks, curves, options);
         append(record_.warnings, found.warnings);

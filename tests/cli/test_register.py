@@ -109,6 +109,54 @@ class Register(Command):
         self.assertLessEqual(soft["map"]["k"], record["map"]["k"] + 1e-4)
         self.assertGreater(soft["registration"]["largest_distance"], 0)
 
+    def curve_file(self, *blocks):
+        """Blocks (mode, vertices of A, vertices or points of B)."""
+        text = ""
+        for mode, here, there in blocks:
+            text += f"curve {mode}  # a block\n" + "".join(f"{v}\n" for v in here) + "onto\n"
+            text += "".join((f"{v}" if np.ndim(v) == 0 else " ".join(map(repr, v))) + "\n" for v in there)
+        pathlib.Path(self.path("curves.txt")).write_text(text)
+        return self.path("curves.txt")
+
+    def test_curves_slide_or_stay(self):
+        self.balls(3)
+        # Two geodesics between vertices of the icosahedron, one of them past a point of space, and a closed one.
+        nearest = lambda p: int(np.linalg.norm(self.source / np.linalg.norm(self.source, axis=1)[:, None] - p, axis=1).argmin())
+        ring = [nearest(np.array(p)) for p in ((.87, 0, -.5), (0, .87, -.5), (-.87, 0, -.5), (0, -.87, -.5))]
+        arc = [nearest(np.array(p)) for p in ((.9, .1, .45), (0, .8, .6), (-.6, .6, .5))]
+        there = [arc[0], self.target[arc[1]].tolist(), arc[2]]
+        records = {}
+        for mode in ("slide", "fixed"):
+            curves = self.curve_file((mode, arc, there), (mode, [*ring, ring[0]], [*ring, ring[0]]))
+            records[mode] = self.register("--curves", curves, "--method", "lp")
+            lp = records[mode]["registration"]["lp"]
+            self.assertEqual(lp["curves"], 2)
+            self.assertLess(lp["curve_distance"], 5e-3)
+            self.assertEqual(records[mode]["solve"]["termination"], "converged")
+            out, _, _ = read_obj(self.path("out.obj"))
+            for v in (arc[0], arc[2]) if mode == "slide" else (*arc, *ring):
+                np.testing.assert_allclose(out[v], self.target[v], atol=1e-6)
+        self.assertLess(records["slide"]["map"]["mu"]["mean"], records["fixed"]["map"]["mu"]["mean"])
+        # Least Lᵖ maps need no curves.
+        pairs = self.write_text("pairs.txt", [(v, v) for v in range(5)])
+        even = self.register("--landmarks", pairs, "--method", "lp", "--p", "8")
+        self.assertLess(even["map"]["mu"]["max"],
+                        self.register("--landmarks", pairs, "--method", "lp")["map"]["mu"]["max"])
+
+    def test_curves_that_cannot_be(self):
+        self.balls(3)
+        crossing = self.curve_file(("slide", [0, 5], [0, 5]), ("slide", [0, 7], [0, 7]))
+        self.assertIn("curve 2 meets curve 1", self.refused(5, "--curves", crossing))
+        self.assertIn("coincide", self.refused(5, "--curves", self.curve_file(("slide", [0, 0], [0, 5]))))
+        self.assertIn("does not exist", self.refused(5, "--curves", self.curve_file(("slide", [0, 10**6], [0, 5]))))
+        self.assertIn("partner", self.refused(5, "--curves", self.curve_file(("slide", [0, 5], [0, 5, 7]))))
+        curves = self.curve_file(("slide", [0, 5], [0, 5]))
+        self.assertIn("--method lp", self.refused(2, "--curves", curves, "--method", "extremal"))
+        for text, said in (("curve wide\n", "curves.txt:1"), ("0\n", "curves.txt:1"), ("curve slide\n0\n5\n", "onto"),
+                           ("curve slide\n0\nx\n", "'x' is no number"), ("# none\n", "no curve")):
+            pathlib.Path(self.path("curves.txt")).write_text(text)
+            self.assertIn(said, self.refused(3, "--curves", self.path("curves.txt")))
+
     def test_refusals(self):
         self.balls(3)
         pairs = self.write_text("pairs.txt", [(v, v) for v in range(5)])

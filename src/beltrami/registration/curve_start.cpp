@@ -9,13 +9,13 @@
 #include <beltrami/charts/chart_places.h>
 #include <beltrami/curves/cut_along.h>
 #include <beltrami/mesh/submesh.h>
-#include <beltrami/operators/distortion.h>
 #include <beltrami/unfold/convex_combination_map.h>
-#include <beltrami/unfold/fold_free.h>
 
 namespace beltrami {
 
 namespace {
+
+constexpr double kAnywhere = 2;  // diameters: folds may lead into the holes of a chart
 
 /// A surface cut open, and its parts.
 struct Parts {
@@ -63,11 +63,7 @@ std::vector<int> partners(const Parts& source, const Parts& target, std::size_t 
 Eigen::VectorXcd map_of_part(const Surface& source, const BoundaryCondition& boundary) {
     int factorizations = 0;
     if (const auto map = convex_embedding(source, boundary, factorizations)) return *map;
-    Eigen::VectorXcd map = convex_combination_map(source, boundary, ConvexWeights::mean_value);
-    if (distortion(source.operators, map).flipped.empty()) return map;
-    std::vector<Freedom> freedoms(static_cast<std::size_t>(source.mesh.vertex_count()), Freedom::free);
-    for (const int v : boundary.vertices) freedoms[v] = Freedom::fixed;
-    return fold_free_map(source, freedoms, Eigen::VectorXcd::Zero(source.operators.sample_count()), map).map;
+    return convex_combination_map(source, boundary, ConvexWeights::mean_value);
 }
 
 }  // namespace
@@ -128,7 +124,7 @@ std::vector<MeshPoint> map_cut_along_curves(const MeshWithCurves& source, const 
         for (const auto& [vertex, image] : images) boundary.pin(vertex, image);
         const Eigen::VectorXcd map = map_of_part(here, boundary);
         const std::vector<MeshPoint> found =
-            locate_in_chart(there, chart.chart.vertices, std::vector<Complex>(map.begin(), map.end()));
+            locate_in_chart(there, chart.chart.vertices, std::vector<Complex>(map.begin(), map.end()), kAnywhere);
         for (std::size_t i = 0; i < found.size(); ++i) {
             MeshPoint place = found[i];
             place.face = to.parts[partner[p]].faces[place.face];

@@ -10,8 +10,8 @@ namespace beltrami {
 /// A map between two closed surfaces of genus 0 that takes curves to curves, by cutting both along them: the parts of
 /// the one go to the parts of the other, every part by the conformal chart of its target to a disk with round holes,
 /// every vertex inside to the mean of its neighbours there (Tutte 1963). The sides of a curve go to those of its
-/// partner, in proportion to arc length between the given points. Parts with one boundary loop are not folded; others
-/// are unfolded as far as that goes (fold_free.h).
+/// partner, in proportion to arc length between the given points. Parts with one boundary loop are not folded, others
+/// may be.
 /// @return #V places on the target's mesh of the source's vertices
 /// @throw Error bad_boundary if the curves divide the two surfaces in different ways, or a curve consists of one edge;
 ///        not_solved

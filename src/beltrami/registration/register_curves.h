@@ -21,28 +21,33 @@ struct CurvePair {
 };
 
 struct CurveRegistrationOptions {
-    double p = 2;  ///< of the Lᵖ norm, see least_lp_map()
-    SphereMapOptions sphere;
+    double p = 2;               ///< of the Lᵖ norm, see least_lp_map()
+    SphereMapOptions sphere;    ///< of closed surfaces
+    int outer_loop = 0;         ///< of others: the loop whose partner goes to the unit circle, …
+    int target_outer_loop = 0;  ///< … and that partner
     SurfaceFlowOptions flow;
     /// Places on the target of every vertex of the source, to start from.
     std::vector<MeshPoint> start = {};
 };
 
-/// A closed surface of genus 0 carried onto another one by the map of least Lᵖ norm.
+/// A surface of genus 0 carried onto another one by the map of least Lᵖ norm.
 struct LpRegistration : CarriedSurface {
-    SphereMap target_sphere;
     MeshWithCurves source;           ///< the source with its curves along edges, whose map is found
-    SurfaceFlowMap map;              ///< of that to the target's sphere
-    MapResult carried;               ///< |μ| of the source's own faces, on the sphere
+    SurfaceFlowMap map;              ///< of that to the target's sphere or circle domain
+    Positions image;                 ///< #V×3 the target's vertices there
+    MapResult carried;               ///< |μ| of the source's own faces there
     std::vector<int> start_flipped;  ///< faces that the start had flipped
     double curve_distance = 0;       ///< largest distance of a vertex of a curve from its partner, in space
     Warnings warnings;
 };
 
-/// The map between two closed surfaces of genus 0 of least Σ A ψ^{p/2}, ψ = |μ|²/(1 − |μ|²), that takes curves to
-/// curves and landmarks to their places, by way of the target's conformal sphere (least_lp_map). Curves run through
-/// given points along geodesics (mesh_with_curves). The start is that of the landmarks (extremal_sphere_map), with
-/// curves a map of the surfaces cut along them (curve_start.h), with landmarks besides put to their places.
+/// The map between two surfaces of genus 0, both closed or with equally many boundary loops, of least Σ A ψ^{p/2}, ψ =
+/// |μ|²/(1 − |μ|²), that takes curves to curves and landmarks to their places, by way of the target's conformal sphere
+/// or circle domain (least_lp_map); boundaries slide along each other. Curves run through given points along geodesics
+/// (mesh_with_curves). The start of closed surfaces is that of the landmarks (extremal_sphere_map), with curves a map
+/// of the surfaces cut along them (curve_start.h). That of others is the extremal map that takes landmarks and given
+/// points of curves to their places (register_open), curves then put to their partners and what folds opened
+/// (fold_free.h).
 /// @param landmarks to be met: none is soft
 /// @throw Error bad_mesh; bad_boundary (curves, landmarks, starts that fold and cannot be unfolded); bad_option;
 ///        not_solved, cancelled

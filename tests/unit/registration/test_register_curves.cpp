@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include <beltrami/base/error.h>
+#include <beltrami/generate/grids.h>
 #include <beltrami/generate/sphere.h>
 #include <beltrami/registration/curve_start.h>
 
@@ -99,6 +100,47 @@ TEST(MapCutAlongCurves, PartsOfASphereWithOneCurveAreNotFolded) {
             EXPECT_LT((point - target.mesh.point(partner)).norm(), 1e-9);
         }
     }
+}
+
+TEST(RegisterLeastLp, SurfacesWithBoundaryAndTheirCurves) {
+    // A sheet, with a curve inside and a landmark.
+    const auto sheet = [](double moved) {
+        Mesh mesh = rectangle(2, 2, 16, 16);
+        Positions positions(mesh.vertex_count(), 3);
+        for (int v = 0; v < mesh.vertex_count(); ++v) {
+            const double x = mesh.positions(v, 0), y = mesh.positions(v, 1);
+            const double u = x + moved * x * (2 - x) * std::sin(2 * y);
+            positions.row(v) << u, y, 0.3 * std::sin(u) * y;
+        }
+        mesh.positions = positions;
+        return mesh;
+    };
+    const auto at = [](const Mesh& mesh, int i, int j) { return place_of_vertex(mesh, 17 * j + i); };
+    const Surface source(sheet(0)), target(sheet(0.15));
+    const CurvePair pair{{{at(source.mesh, 4, 8), at(source.mesh, 8, 9), at(source.mesh, 12, 8)}, false},
+                         {{at(target.mesh, 4, 8), at(target.mesh, 8, 9), at(target.mesh, 12, 8)}, false},
+                         true};
+    const std::vector<SurfaceLandmark> landmarks{{17 * 3 + 8, at(target.mesh, 8, 3)}};
+    const LpRegistration found = register_least_lp(source, target, landmarks, std::array{pair});
+    EXPECT_TRUE(found.map.distortion.flipped.empty());
+    EXPECT_LT(found.curve_distance, 1e-3);
+    for (const int v : {17 * 8 + 4, 17 * 8 + 12, 17 * 3 + 8})
+        EXPECT_LT((found.positions.row(v).transpose() - target.mesh.point(v)).norm(), 1e-9);
+    for (const int v : source.topology.boundary_loops[0]) {
+        const Eigen::RowVector3d p = found.positions.row(v);
+        EXPECT_LT(std::min({p.x(), 2 - p.x(), p.y(), 2 - p.y()}), 1e-9);
+    }
+    // A tube, with a curve around it.
+    const Surface tube(cylinder(1, 3, 18, 12)), other(cylinder(1.2, 3, 18, 12));
+    const auto ring = [](const Surface& surface, int level) {
+        CurveThrough curve{{}, true};
+        for (const int i : {0, 6, 12}) curve.points.push_back(place_of_vertex(surface.mesh, 13 * i + level));
+        return curve;
+    };
+    const LpRegistration around =
+        register_least_lp(tube, other, {}, std::array{CurvePair{ring(tube, 5), ring(other, 7), true}});
+    EXPECT_TRUE(around.map.distortion.flipped.empty());
+    EXPECT_LT(around.curve_distance, 2e-2);
 }
 
 TEST(RegisterLeastLp, RefusesWhatCannotBe) {
