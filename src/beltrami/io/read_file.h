@@ -3,7 +3,9 @@
 #include <filesystem>
 #include <string>
 
-namespace beltrami {
+#include <beltrami/base/public.h>
+
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// All bytes of a regular file or a pipe.
 /// @throw Error unreadable with the system's reason
