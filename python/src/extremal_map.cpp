@@ -277,7 +277,7 @@ void bind_extremal(py::module_& m) {
         .def_property_readonly("start", array(&ExtremalMap::start), "#V the map from which the iteration began")
         .def_property_readonly(
             "termination", [](const ExtremalObject& o) { return std::string(to_string(o.result().termination)); },
-            "\"converged\", \"iteration_limit\", \"not_teichmuller\" or \"below_bound\"")
+            "\"converged\", \"iteration_limit\", \"not_teichmuller\", \"below_bound\" or \"unconfirmed\"")
         .def_property_readonly(
             "iterations", [](const ExtremalObject& o) { return o.result().iterations; }, "Linear solves")
         .def_property_readonly("factorizations", [](const ExtremalObject& o) { return o.result().factorizations; })
