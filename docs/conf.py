@@ -27,6 +27,12 @@ pygments_style = "friendly"
 pygments_dark_style = "monokai"
 
 
+def plain(app, what, name, obj, options, lines):
+    """Docstrings are plain text: their |μ| and a*b are no markup."""
+    lines[:] = [re.sub(r"([|*])", r"\\\1", line) for line in lines]
+
+
 def setup(app):
     """The library's one namespace is declared on the page of every room: no duplicate."""
     logging.getLogger("sphinx.sphinx.domains.cpp").addFilter(lambda record: "Duplicate" not in str(record.msg))
+    app.connect("autodoc-process-docstring", plain)
