@@ -396,7 +396,9 @@ TEST(Page, WritesPagesForTheBrowserCheck) {
     broken.map.row(40).setConstant(nan);
     write("triangles.html", content_of(triangles, {flat_map(triangles), broken}));
     const Mesh quads = bumpy_square(20, Faces::quads);
-    PageContent space = content_of(quads, {{"space", quads.positions, Eigen::VectorXd::Zero(quads.face_count())}});
+    Positions higher = quads.positions;  // a picture of its own, and every overlay another
+    higher.col(2) *= 3;
+    PageContent space = content_of(quads, {{"space", higher, Eigen::VectorXd::Constant(quads.face_count(), 0.2)}});
     space.record_json = "{}";
     space.history_k.clear();
     space.history_change.clear();
