@@ -101,7 +101,7 @@ class BatchFolder {
         return outcome;
     }
     fs::path begin(const BatchJob& job) const {
-        const fs::path folder = path_ / ("." + job.id + ".tmp");
+        fs::path folder = path_ / ("." + job.id + ".tmp");
         fs::remove_all(folder);
         fs::create_directory(folder);
         return folder;
@@ -139,6 +139,7 @@ pid_t start_process(const std::vector<std::string>& args, const fs::path& log) {
     std::vector<std::string> words{"beltrami"};
     words.insert(words.end(), args.begin(), args.end());
     std::vector<char*> argv;
+    argv.reserve(words.size() + 1);
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
     const pid_t parent = ::getpid();

@@ -127,7 +127,7 @@ BatchCommand command_in(const std::filesystem::path& folder, const std::vector<s
     bool has_record = false, has_threads = false;
     const auto placed = [&](const std::string& option, const std::string& value) {
         const bool here = value != "-" && std::filesystem::path(value).is_relative();
-        const std::string path = here ? (folder / value).string() : value;
+        std::string path = here ? (folder / value).string() : value;
         if (here) std::filesystem::create_directories(std::filesystem::path(path).parent_path());
         if (option == "--json") {
             has_record = true;

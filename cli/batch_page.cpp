@@ -37,7 +37,7 @@ std::array<std::uint8_t, 3> palette_colour(int index) {
 /// An image of numbers of colours, row 0 below.
 class Raster {
   public:
-    Raster() : pixels_(static_cast<std::size_t>(kSide) * kSide, 255) {}
+    Raster() : pixels_(static_cast<std::size_t>(kSide) * kSide, static_cast<char>(255)) {}
 
     void triangle(const std::array<Eigen::Vector2d, 3>& p, std::uint8_t colour) {
         const auto side = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b, double x, double y) {

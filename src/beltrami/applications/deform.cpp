@@ -134,8 +134,11 @@ struct DeformSolver::Parts {
     void relax(TangentialMap& map, double first_power) const {
         map.set_damping(kDamping);
         map.set_progress(options.progress);
-        for (double power = first_power; power <= options.last_power; power *= 2)
+        double power = first_power;
+        while (power <= options.last_power) {
             map.relax(power, options.steps_of_power, options.tolerance);
+            power *= 2;
+        }
     }
 
     /// @param begin positions of the vertices on the target, without folds
@@ -144,10 +147,12 @@ struct DeformSolver::Parts {
         TangentialMap map(start, elements.operators, target, held, 0);
         if (const std::vector<int> folded = map.folded(); !folded.empty()) {
             std::vector<int> faces;
+            faces.reserve(folded.size());
             for (const int s : folded) faces.push_back(elements.operators.faces[s]);
             faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-            throw Error(Cause::not_solved, std::to_string(faces.size()) + " faces fold where the map begins",
-                        "move the handles in smaller steps", {Things::faces, std::move(faces)});
+            const std::string sentence = std::to_string(faces.size()) + " faces fold where the map begins";
+            throw Error(Cause::not_solved, sentence, "move the handles in smaller steps",
+                        {Things::faces, std::move(faces)});
         }
         relax(map, first_power);
         Deformation result;

@@ -95,6 +95,7 @@ void Embedding::add(std::size_t curve, const CurveThrough& through) {
     MeshWithCurves::Chain& chain = result_.curves[curve];
     chain.closed = through.closed;
     std::vector<int> given;
+    given.reserve(through.points.size());
     for (const MeshPoint& place : through.points) given.push_back(mesh_.vertex_at(place));
     const std::size_t pieces = given.size() - (through.closed ? 0 : 1);
     int previous = given[0];
