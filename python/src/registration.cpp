@@ -51,6 +51,15 @@ struct RegistrationObject {
     Warnings warnings;
     std::shared_ptr<SurfaceCorrespondence> correspondence;  // of closed surfaces
 
+    template <class Map>
+    void take_map(const Map& map, Warnings&& found) {
+        k = map.k;
+        K = map.K;
+        K_lower = map.K_lower;
+        K_max = map.K_max;
+        termination = to_string(map.termination);
+        warnings = std::move(found);
+    }
     void take(CarriedSurface&& carried) {
         places.points = std::move(carried.places);
         positions = std::move(carried.positions);
@@ -72,12 +81,7 @@ RegistrationObject spheres(const SurfacePtr& source, const SurfacePtr& target, c
     return without_lock(interruption, [&] {
         SphereRegistration found = register_spheres(source->surface, target->surface, landmarks, options);
         RegistrationObject object;
-        object.k = found.map.k;
-        object.K = found.map.K;
-        object.K_lower = found.map.K_lower;
-        object.K_max = found.map.K_max;
-        object.termination = to_string(found.map.termination);
-        object.warnings = std::move(found.warnings);
+        object.take_map(found.map, std::move(found.warnings));
         object.correspondence = std::make_shared<SurfaceCorrespondence>(source->surface.mesh, target->surface.mesh,
                                                                         found.target_sphere.positions, found.places);
         object.take(std::move(found));
@@ -101,12 +105,7 @@ RegistrationObject open(const SurfacePtr& source, const SurfacePtr& target, cons
     return without_lock(interruption, [&] {
         OpenRegistration found = register_open(source->surface, target->surface, landmarks, options);
         RegistrationObject object;
-        object.k = found.map.k;
-        object.K = found.map.K;
-        object.K_lower = found.map.K_lower;
-        object.K_max = found.map.K_max;
-        object.termination = to_string(found.map.termination);
-        object.warnings = std::move(found.warnings);
+        object.take_map(found.map, std::move(found.warnings));
         object.take(std::move(found));
         return object;
     });

@@ -6,6 +6,7 @@
 #include <string>
 
 #include <beltrami/base/error.h>
+#include <beltrami/flow/coefficient_error_sum.h>
 #include <beltrami/solve/quasiconformal_map.h>
 #include <beltrami/solve/sliding_map_step.h>
 #include <beltrami/solve/vertex_samples.h>
@@ -59,29 +60,17 @@ void FlowOptions::validate() const {
 
 CoefficientError coefficient_error(const Surface& source, const Eigen::VectorXcd& map, const Eigen::VectorXcd& mu) {
     const Operators& operators = source.operators;
-    CoefficientError error;
+    CoefficientErrorSum sums;
     // (∂̄f − μ∂f)/conj(∂f) is the same in every frame of the source, so that it can be averaged.
     Eigen::VectorXcd turned(operators.sample_count());
     Eigen::VectorXd image(operators.sample_count());
-    double squares = 0, area = 0, residual = 0, whole = 0;
     for (int s = 0; s < operators.sample_count(); ++s) {
         const auto [dz, dzbar] = operators.derivatives(s, map);
-        const Complex left = dzbar - mu[s] * dz;
-        const double difference = std::abs(dzbar / dz - mu[s]), w = operators.weights[s];
-        if (std::isfinite(difference)) {
-            squares += w * difference * difference;
-            area += w;
-            error.sup = std::max(error.sup, difference);
-        } else {
-            error.sup = std::numeric_limits<double>::infinity();
-        }
+        const double w = operators.weights[s];
         image[s] = w * std::norm(dz);
-        turned[s] = w * left * dz;  // the coefficient on the target, by weight
-        residual += w * std::norm(left);
-        whole += image[s];
+        turned[s] = w * (dzbar - mu[s] * dz) * dz;  // the coefficient on the target, by weight
+        sums.add(w, dz, dzbar, mu[s]);
     }
-    error.l2 = area > 0 ? std::sqrt(squares / area) : 0.0;
-    error.residual = std::sqrt(residual / whole);
 
     const VertexSamples around(operators);
     Eigen::VectorXcd mean = Eigen::VectorXcd::Zero(operators.vertex_count);
@@ -99,8 +88,7 @@ CoefficientError coefficient_error(const Surface& source, const Eigen::VectorXcd
         for (const int v : operators.stencil(s)) sum += mean[v];
         smooth += image[s] * std::norm(sum / static_cast<double>(operators.stencil(s).size()));
     }
-    error.misfit = std::sqrt(smooth / whole);
-    return error;
+    return sums.error(smooth);
 }
 
 bool coefficient_fits(const CoefficientError& error) {

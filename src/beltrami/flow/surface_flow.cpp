@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <beltrami/base/error.h>
+#include <beltrami/flow/coefficient_error_sum.h>
 #include <beltrami/solve/image_frame.h>
 #include <beltrami/solve/quasiconformal_map.h>
 #include <beltrami/solve/target_step.h>
@@ -209,31 +210,20 @@ void SurfaceFlowOptions::validate() const {
 CoefficientError coefficient_error(const Surface& source, const TargetMap& map, const Eigen::VectorXcd& mu) {
     const Operators& operators = source.operators;
     const Positions points = positions_of(map.points), normals = normals_of(map.points);
-    CoefficientError error;
-    double squares = 0, area = 0, residual = 0, whole = 0;
+    CoefficientErrorSum sums;
     // (∂̄f − μ∂f)/conj(∂f) in the frames of the vertices, in which it can be averaged, by |∂f|² and area.
     Eigen::VectorXcd mean = Eigen::VectorXcd::Zero(operators.vertex_count);
     Eigen::VectorXd around = Eigen::VectorXd::Zero(operators.vertex_count);
     for (int s = 0; s < operators.sample_count(); ++s) {
         const ImageFrame frame = image_frame(operators, s, points, normals);
         const Complex left = frame.q - mu[s] * frame.p;
-        const double difference = std::abs(frame.q / frame.p - mu[s]), w = operators.weights[s];
-        if (std::isfinite(difference)) {
-            squares += w * difference * difference;
-            area += w;
-            error.sup = std::max(error.sup, difference);
-        } else {
-            error.sup = std::numeric_limits<double>::infinity();
-        }
-        residual += w * std::norm(left);
-        whole += w * std::norm(frame.p);
+        const double w = operators.weights[s];
+        sums.add(w, frame.p, frame.q, mu[s]);
         for (const int v : operators.stencil(s)) {
             mean[v] += w * left * frame.p * std::conj(turn_to(frame, map.points[v].normal));
             around[v] += w * std::norm(frame.p);
         }
     }
-    error.l2 = area > 0 ? std::sqrt(squares / area) : 0.0;
-    error.residual = std::sqrt(residual / whole);
     double smooth = 0;
     for (int s = 0; s < operators.sample_count(); ++s) {
         const ImageFrame frame = image_frame(operators, s, points, normals);
@@ -243,8 +233,7 @@ CoefficientError coefficient_error(const Surface& source, const TargetMap& map, 
             if (around[v] > 0) sum += mean[v] / around[v] * turn_to(frame, map.points[v].normal);
         smooth += operators.weights[s] * std::norm(frame.p) * std::norm(sum / static_cast<double>(stencil.size()));
     }
-    error.misfit = std::sqrt(smooth / whole);
-    return error;
+    return sums.error(smooth);
 }
 
 SurfaceFlowMap surface_flow(const Surface& source, const Target& target, const Eigen::VectorXcd& mu,

@@ -10,6 +10,7 @@
 
 #include <beltrami/base/error.h>
 #include <beltrami/forms/delaunay_forms.h>
+#include <beltrami/teichmuller/naming.h>
 
 namespace beltrami {
 
@@ -43,16 +44,6 @@ TorusMarking marking_of_periods(const FlatTorus& source, const FlatTorus& target
     const Eigen::Matrix2d images = periods.transpose().cast<double>() * source.generators.cast<double>();
     const Eigen::Matrix2d in_generators = to.inverse() * images;
     return in_generators.array().round().matrix().cast<int>();
-}
-
-template <class Action>
-void naming(const std::string& name, const std::vector<int>& shapes, const Action& action) {
-    try {
-        action();
-    } catch (const Error& error) {
-        if (error.cause() == Cause::cancelled) throw;
-        throw Error(error.cause(), name + ": " + error.what(), {}, {Things::shapes, shapes});
-    }
 }
 
 std::vector<int> nearest_vertices(const std::vector<MeshPoint>& places) {

@@ -48,6 +48,14 @@ TargetMotion::TargetMotion(const Surface& source, const Target& target, const Ta
     if (!constraints.sliding.empty()) inward_ = graph_of(source, unknowns_);
 }
 
+std::vector<int> TargetMotion::indices_of_moving() const {
+    std::vector<int> indices(unknowns_.size(), -1);
+    int count = 0;
+    for (std::size_t v = 0; v < unknowns_.size(); ++v)
+        if (unknowns_[v] > 0) indices[v] = count++;
+    return indices;
+}
+
 TargetMotion::Directions TargetMotion::directions(int vertex, const TargetMap& map) const {
     const Eigen::Vector3d none = Eigen::Vector3d::Zero();
     if (unknowns_[vertex] == 0) return {none, none};
@@ -96,6 +104,16 @@ TargetMap TargetMotion::moved(const TargetMap& map, const Positions& motion, dou
         },
         kGrain);
     return result;
+}
+
+Positions motion_along(const std::vector<int>& indices, const std::vector<TargetMotion::Directions>& ways,
+                       const Eigen::VectorXd& unknowns) {
+    Positions motion = Positions::Zero(static_cast<Eigen::Index>(indices.size()), 3);
+    for (std::size_t v = 0; v < indices.size(); ++v)
+        if (const int i = indices[v]; i >= 0)
+            motion.row(static_cast<Eigen::Index>(v)) =
+                (unknowns[2 * i] * ways[v][0] + unknowns[2 * i + 1] * ways[v][1]).transpose();
+    return motion;
 }
 
 }  // namespace beltrami

@@ -25,6 +25,8 @@ class TargetMotion {
     Directions directions(int vertex, const TargetMap& map) const;
     /// 0 to 2 unknowns a vertex.
     const std::vector<signed char>& unknowns() const { return unknowns_; }
+    /// #V: the number of a vertex among those that move, −1 elsewhere.
+    std::vector<int> indices_of_moving() const;
 
     /// The map after a motion times a length.
     /// @param motion #V×3, in the directions of the map's vertices
@@ -43,5 +45,11 @@ class TargetMotion {
     std::vector<int> slide_;                  ///< #V of constraints_.sliding, −1 elsewhere
     std::unique_ptr<GraphLaplacian> inward_;  ///< null where nothing slides
 };
+
+/// #V×3: the motion that two unknowns a moving vertex are.
+/// @param indices TargetMotion::indices_of_moving()
+/// @param ways    #V, the directions of these unknowns
+Positions motion_along(const std::vector<int>& indices, const std::vector<TargetMotion::Directions>& ways,
+                       const Eigen::VectorXd& unknowns);
 
 }  // namespace beltrami

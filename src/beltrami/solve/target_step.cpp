@@ -20,14 +20,6 @@ constexpr double kFirstDamping = 1e-3, kLeastDamping = 1e-5, kDampingFactor = 4;
 constexpr double kNoticeable = 1e-2;
 constexpr int kMostCorners = 4;
 
-std::vector<int> places_of(const std::vector<signed char>& unknowns) {
-    std::vector<int> place(unknowns.size(), -1);
-    int count = 0;
-    for (std::size_t v = 0; v < unknowns.size(); ++v)
-        if (unknowns[v] > 0) place[v] = count++;
-    return place;
-}
-
 ElementSystem system_of(const Operators& operators, const std::vector<int>& place) {
     std::vector<int> nodes;
     nodes.reserve(operators.vertices.size());
@@ -41,7 +33,7 @@ ElementSystem system_of(const Operators& operators, const std::vector<int>& plac
 TargetStep::TargetStep(const Operators& operators, const TargetMotion& motion)
     : operators_(operators),
       motion_(motion),
-      place_(places_of(motion.unknowns())),
+      place_(motion.indices_of_moving()),
       system_(system_of(operators, place_)),
       gradient_(system_.unknown_count()) {}
 
@@ -113,12 +105,7 @@ std::optional<Positions> TargetStep::direction(const TargetEnergy& energy, const
             if (shift >= kLargestShift) return {};
         }
     }
-    Positions motion = Positions::Zero(static_cast<Eigen::Index>(place_.size()), 3);
-    for (std::size_t v = 0; v < place_.size(); ++v)
-        if (const int node = place_[v]; node >= 0)
-            motion.row(static_cast<Eigen::Index>(v)) =
-                (solution[2 * node] * ways[v][0] + solution[2 * node + 1] * ways[v][1]).transpose();
-    return motion;
+    return motion_along(place_, ways, solution);
 }
 
 TargetStep::Taken TargetStep::step(TargetEnergy& energy, TargetMap& map, double largest) {

@@ -47,14 +47,6 @@ void turn_over(ImageFrame& frame) {
     frame.upright = !frame.upright;
 }
 
-std::vector<int> places_among_moving(const std::vector<signed char>& unknowns) {
-    std::vector<int> place(unknowns.size(), -1);
-    int count = 0;
-    for (std::size_t v = 0; v < unknowns.size(); ++v)
-        if (unknowns[v] > 0) place[v] = count++;
-    return place;
-}
-
 /// Elements: the samples, then every vertex by itself.
 ElementSystem system_of(const Operators& operators, const std::vector<int>& place) {
     std::vector<int> nodes, offsets = operators.offsets;
@@ -93,7 +85,7 @@ TangentialMap::TangentialMap(const Surface& start, const Operators& reference, c
       own_normal_(Positions::Zero(reference.sample_count(), 3)),
       stiffness_(Eigen::VectorXd::Zero(start.mesh.vertex_count())),
       size_(Eigen::VectorXd::Zero(start.mesh.vertex_count())),
-      place_(places_among_moving(motion_.unknowns())),
+      place_(motion_.indices_of_moving()),
       system_(system_of(reference, place_)),
       gradient_(system_.unknown_count()) {
     find_cusps();
@@ -287,12 +279,7 @@ Positions TangentialMap::direction(const BarrierEnergy& energy) {
             equilibrate(ways);
         }
     }
-    Positions motion = Positions::Zero(static_cast<Eigen::Index>(place_.size()), 3);
-    for (std::size_t v = 0; v < place_.size(); ++v)
-        if (const int node = place_[v]; node >= 0)
-            motion.row(static_cast<Eigen::Index>(v)) =
-                (solution[2 * node] * ways[v][0] + solution[2 * node + 1] * ways[v][1]).transpose();
-    return motion;
+    return motion_along(place_, ways, solution);
 }
 
 /// Holds the vertices of samples that keep a step short.

@@ -9,6 +9,7 @@
 #include <beltrami/base/error.h>
 #include <beltrami/certificate/modulus.h>
 #include <beltrami/charts/shape.h>
+#include <beltrami/teichmuller/naming.h>
 
 namespace beltrami {
 
@@ -16,17 +17,6 @@ namespace {
 
 double half_log(double K) {
     return 0.5 * std::log(std::max(1.0, K));
-}
-
-/// Does something and puts a name before what goes wrong.
-template <class Action>
-void naming(const std::string& name, const std::vector<int>& shapes, const Action& action) {
-    try {
-        action();
-    } catch (const Error& error) {
-        if (error.cause() == Cause::cancelled) throw;
-        throw Error(error.cause(), name + ": " + error.what(), {}, {Things::shapes, shapes});
-    }
 }
 
 Distance distance_of(const ExtremalMap& map) {
