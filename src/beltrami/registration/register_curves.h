@@ -5,8 +5,8 @@
 
 #include <beltrami/curves/surface_curve.h>
 #include <beltrami/flow/surface_flow.h>
-#include <beltrami/teichmuller/carried_surface.h>
 #include <beltrami/registration/surface_landmarks.h>
+#include <beltrami/teichmuller/carried_surface.h>
 #include <beltrami/uniformize/sphere_map.h>
 
 namespace beltrami BELTRAMI_PUBLIC {
