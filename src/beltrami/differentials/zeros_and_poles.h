@@ -24,6 +24,9 @@ struct CriticalPoint {
 /// of φ, are not among them, nor zeros on faces that the chart excludes. Of prescribed boundary values φ is what fits
 /// the mesh best: its zeros well inside mean something, those within a few edges of the rim often do not.
 ///
+/// In an atlas of a closed surface, whose parts lie side by side, likewise; where the orders do not come to −2χ, as of a
+/// tabulated φ.
+///
 /// Of a tabulated φ, by what its argument turns from face to face around a vertex, less what the angles there turn, in
 /// the surface's own metric. A simple zero inside is placed where the linear function through the faces around has
 /// its own, anything else at a vertex; vertices next to each other count as one, of the sum of their orders. On

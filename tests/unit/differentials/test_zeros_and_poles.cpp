@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <Eigen/Geometry>
+
 #include <beltrami/base/error.h>
 #include <beltrami/charts/circle_domain_chart.h>
 #include <beltrami/charts/domain_chart.h>
@@ -12,7 +14,9 @@
 #include <beltrami/differentials/tabulated_space.h>
 #include <beltrami/differentials/zeros_and_poles.h>
 #include <beltrami/generate/round_domains.h>
+#include <beltrami/generate/sphere.h>
 #include <beltrami/mesh/planar.h>
+#include <beltrami/sphere/atlas.h>
 
 #include "support/meshes.h"
 #include "support/onto.h"
@@ -103,6 +107,76 @@ TEST(ZerosAndPoles, DoNotDependOnScaleSimilaritiesAndNumbers) {
 TEST(ZerosAndPoles, AVertexWithoutAResidueIsNoPole) {
     const Surface source(test::jittered_square(5));
     EXPECT_TRUE(zeros_and_poles(source, differential_of(source, [](Complex) { return Complex(2, 1); }, {14})).empty());
+}
+
+/// φ = Π s(zero) / Π s(pole) dζ² in the atlas of the sphere, s vanishing at a point; four more poles than zeros.
+class ProductOnSphere final : public DifferentialSpace {
+  public:
+    ProductOnSphere(std::vector<Eigen::Vector3d> zeros, std::vector<Eigen::Vector3d> poles)
+        : zeros_(std::move(zeros)), poles_(std::move(poles)) {}
+    int size() const override { return 1; }
+    bool complex_coefficients() const override { return true; }
+    Eigen::MatrixXcd generators(const ChartPoints& points) const override {
+        Eigen::MatrixXcd values(points.positions.size(), 1);
+        for (Eigen::Index i = 0; i < values.rows(); ++i) {
+            const auto [xi, eta] = atlas::spinor(points.positions[i]);
+            Complex value = points.derivatives[i] * points.derivatives[i];
+            const auto at = [&, a = xi, b = eta](const Eigen::Vector3d& point) {
+                const auto [u, v] = atlas::unit_spinor(point);
+                return a * v - u * b;
+            };
+            for (const Eigen::Vector3d& zero : zeros_) value *= at(zero);
+            for (const Eigen::Vector3d& pole : poles_) value /= at(pole);
+            values(i, 0) = value;
+        }
+        return values;
+    }
+    std::unique_ptr<DifferentialSpace> refined() const override { return nullptr; }
+
+  private:
+    std::vector<Eigen::Vector3d> zeros_, poles_;
+};
+
+TEST(ZerosAndPoles, OnTheSphereAreAllFoundWhereverTheAtlasIsCut) {
+    const Mesh upright = icosahedral_sphere(3);
+    const std::vector<int> poles{0, 1, 2, 3, 50, 100, 200};
+    const Eigen::Vector3d once = Eigen::Vector3d(0.3, -0.8, 0.1).normalized(),
+                          twice = Eigen::Vector3d(-0.2, 0.5, 0.9).normalized();
+    for (int turn = 0; turn < 16; ++turn) {
+        SCOPED_TRACE(turn);
+        // The last ones put a zero onto the equator, where the parts of the atlas meet, and one to the south pole.
+        Eigen::Quaterniond rotation(Eigen::AngleAxisd(0.4 * turn, Eigen::Vector3d(1, 0.3, -0.5).normalized()));
+        if (turn == 14) rotation = Eigen::Quaterniond::FromTwoVectors(once, Eigen::Vector3d::UnitX());
+        if (turn == 15) rotation = Eigen::Quaterniond::FromTwoVectors(twice, -Eigen::Vector3d::UnitZ());
+        Mesh mesh = upright;
+        mesh.positions = upright.positions * rotation.toRotationMatrix().transpose();
+        const Surface source(mesh);
+        std::vector<Eigen::Vector3d> places;
+        for (const int v : poles) places.push_back(mesh.point(v));
+        const std::vector<Eigen::Vector3d> zeros{rotation * once, rotation * twice, rotation * twice};
+        const QuadraticDifferential phi{
+            std::make_shared<ProductOnSphere>(zeros, places),
+            std::make_shared<Chart>(make_atlas(source, atlas::corner_places(mesh.faces, mesh.positions))),
+            Eigen::VectorXcd::Ones(1),
+            poles,
+            {}};
+        const std::vector<CriticalPoint> found = zeros_and_poles(source, phi);
+        ASSERT_EQ(found.size(), poles.size() + 2);
+        std::vector<int> at_vertices;
+        for (const CriticalPoint& point : found) {
+            EXPECT_FALSE(point.on_boundary);
+            if (point.order == -1) {
+                at_vertices.push_back(vertex_at(point));
+                continue;
+            }
+            Eigen::Vector3d at = Eigen::Vector3d::Zero();
+            for (int j = 0; j < 3; ++j) at += point.place.barycentric[j] * mesh.point(point.place.vertices[j]);
+            ASSERT_TRUE(point.order == 1 || point.order == 2);
+            EXPECT_LT((at.normalized() - rotation * (point.order == 1 ? once : twice)).norm(), 0.01);  // edges of 0.15
+        }
+        std::sort(at_vertices.begin(), at_vertices.end());
+        EXPECT_EQ(at_vertices, poles);
+    }
 }
 
 TEST(ZerosAndPoles, AtTheRimAreOnTheBoundary) {
