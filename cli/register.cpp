@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <beltrami/base/error.h>
+#include <beltrami/forms/flat_torus.h>
+#include <beltrami/hyperbolic/hyperbolic_domain.h>
 #include <beltrami/registration/nearest_places.h>
 
 #include "command.h"
@@ -17,6 +19,8 @@
 namespace beltrami::cli {
 
 namespace {
+
+constexpr double kConformal = 1e-9;  // |μ| below which it has no direction
 
 class Register final : public Command {
   public:
@@ -113,9 +117,10 @@ class Register final : public Command {
             return true;
         };
         if (is_closed(source))
-            conclude(register_spheres(source, target, landmarks, options), source_input, target_input, landmarks);
+            conclude(register_spheres(source, target, landmarks, options), source, source_input, target_input,
+                     landmarks);
         else
-            conclude(open(source, target, landmarks, options), source_input, target_input, landmarks);
+            conclude(open(source, target, landmarks, options), source, source_input, target_input, landmarks);
         return 0;
     }
 
@@ -149,7 +154,7 @@ class Register final : public Command {
         record_.solve = solve_record(found.map, seconds() - begun_);
         record_.registration = registration_record(found, p_, target_, landmarks.size());
         record_.registration->lp->curve_distance *= target_input.unit;
-        write(found, found.carried.distortion, source_input, target_input);
+        write(found, page_of(found, found.carried.distortion), found.carried.distortion, source_input, target_input);
     }
 
     static bool is_closed(const Surface& surface) { return surface.topology.boundary_loops.empty(); }
@@ -168,28 +173,38 @@ class Register final : public Command {
     }
 
     template <class Found>
-    void conclude(const Found& found, const MeshInput& source, const MeshInput& target,
+    void conclude(const Found& found, const Surface& surface, const MeshInput& source, const MeshInput& target,
                   const std::vector<SurfaceLandmark>& landmarks) {
         append(record_.warnings, found.warnings);
         record_.registration = registration_record(found, target_, landmarks.size());
         if (record_.registration->largest_distance) *record_.registration->largest_distance *= target.unit;
-        conclude_with(found, found.map, source, target);
+        RegistrationPage page = page_of(found, found.map.distortion);
+        page.history = found.map.history;
+        // Where edges of the source were split φ belongs to another mesh.
+        const bool same = found.map.phi.size() == surface.operators.sample_count();
+        if (wants_page() && same && !found.map.differential.zero())
+            page.map.differential = page_differential(surface, found.map.phi, found.map.differential);
+        conclude_with(found, found.map, std::move(page), source, target);
     }
 
     template <class Map>
-    void conclude_with(const CarriedSurface& carried, const Map& map, const MeshInput& source,
+    void conclude_with(const CarriedSurface& carried, const Map& map, RegistrationPage page, const MeshInput& source,
                        const MeshInput& target) {
         record_.map = map_record(map);
         record_.solve = solve_record(map, seconds() - begun_);
-        write(carried, map.distortion, source, target);
+        write(carried, std::move(page), map.distortion, source, target);
     }
 
-    void write(const CarriedSurface& found, const Distortion& distortion, const MeshInput& source,
-               const MeshInput& target) {
+    bool wants_page() const { return !common_.report.empty(); }
+    static RegistrationPage page_of(const CarriedSurface& found, const Distortion& distortion) {
+        return {{"registration", found.positions, distortion.face_abs_mu}};
+    }
+
+    void write(const CarriedSurface& found, RegistrationPage page, const Distortion& distortion,
+               const MeshInput& source, const MeshInput& target) {
         write_at(output_, source.mesh.faces, target.unit * found.positions, distortion, source.attributes);
         if (!places_.empty()) write_places(places_, target.mesh, found.places);
-        write_page(common_, source.mesh, {{"registration", found.positions, distortion.face_abs_mu}}, {}, record_,
-                   source_);
+        write_page(common_, source.mesh, std::move(page), record_, source_);
         finish(record_, common_, "registration", {output_, places_, common_.json, common_.report});
     }
 
@@ -243,7 +258,13 @@ class Register final : public Command {
                 register_tori(source, target, marking_.searches() ? std::nullopt : std::optional(std::move(marking)));
             append(record_.warnings, found.warnings);
             record_.registration = registration_record(found, target_);
-            conclude_with(found, found, source_input, target_input);
+            RegistrationPage page = page_of(found, found.distortion);
+            if (wants_page()) {
+                const FlatTorus torus = flat_torus(source);
+                page.domain = page_domain(source, torus);
+                if (found.k > kConformal) page.map.differential = page_differential(source, torus, found.mu);
+            }
+            conclude_with(found, found, std::move(page), source_input, target_input);
             return;
         }
         if (marking_.searches())
@@ -259,7 +280,14 @@ class Register final : public Command {
         const HandleRegistration found = register_handles(from, to, marking, options);
         append(record_.warnings, found.map.warnings);
         record_.registration = registration_record(found, from, target_);
-        conclude_with(found.map, found.map, source_input, target_input);
+        RegistrationPage page = page_of(found.map, found.map.distortion);
+        page.history = found.map.history;
+        if (wants_page()) {
+            page.domain = page_domain(source, from.metric(), hyperbolic_domain(source, from.metric()));
+            if (!found.map.differential.zero())
+                page.map.differential = page_differential(source, found.map.phi, found.map.differential);
+        }
+        conclude_with(found.map, found.map, std::move(page), source_input, target_input);
     }
 
     std::string source_, target_, output_, start_, places_;

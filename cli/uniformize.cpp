@@ -7,7 +7,6 @@
 #include <beltrami/hyperbolic/hyperbolic_domain.h>
 #include <beltrami/io/atomic_file.h>
 #include <beltrami/mesh/edge_table.h>
-#include <beltrami/mesh/texture_map.h>
 
 #include "command.h"
 #include "mesh_input.h"
@@ -143,7 +142,7 @@ class Uniformize final : public Command {
         record_.periods =
             periods_record(found.homology, found.generators, Eigen::MatrixXcd::Constant(1, 1, found.tau), input.unit);
         record_.torus = torus_record(found);
-        finish_layout(source, input, found.layout, found.distortion);
+        finish_layout(source, input, found.layout, found.distortion, [&] { return page_domain(source, found); });
     }
 
     void to_hyperbolic_plane(const Surface& source, const MeshInput& input, double start) {
@@ -156,12 +155,15 @@ class Uniformize final : public Command {
         record_.solve->iterations = metric.iterations;
         record_.periods = periods_record(basis.homology, periods.basis, periods.periods, input.unit);
         record_.hyperbolic = hyperbolic_record(metric, found);
-        finish_layout(source, input, found.layout, found.distortion);
+        finish_layout(source, input, found.layout, found.distortion,
+                      [&] { return page_domain(source, metric, found); });
     }
 
     /// A map with seams is written, and the record.
+    /// @param domain the same for a page
+    template <class Domain>
     void finish_layout(const Surface& source, const MeshInput& input, const TextureCoordinates& layout,
-                       const Distortion& d) {
+                       const Distortion& d, Domain&& domain) {
         if (!d.flipped.empty())
             record_.warnings.push_back({WarningKind::flipped_faces,
                                         counted(d.flipped.size(), "face comes", "faces come") +
@@ -171,8 +173,12 @@ class Uniformize final : public Command {
         record_.map = map_record(d);
         output_.write_layout(source.mesh, layout, d, input.attributes, input.unit);
         if (!loops_.empty()) write_loops(input);
-        write_page(common_, cut_along_seams(source.mesh, layout), {{"conformal", layout.points, d.face_abs_mu}}, {},
-                   record_, source_);
+        if (!common_.report.empty()) {
+            PageDomain page = domain();
+            PageMap map{"conformal", std::move(page.layout), d.face_abs_mu};
+            map.outline = std::move(page.outline);
+            write_page(common_, page.mesh, {std::move(map)}, {}, record_, source_, std::move(page.joined));
+        }
         finish(record_, common_, "conformal", {output_.path(), common_.json, common_.report});
     }
 

@@ -44,7 +44,7 @@ async function clickAt(page, figure, x, y) {  // in a planar figure's coordinate
     await canvas.click({ position: { x: width / 2 + x * radius, y: height / 2 - y * radius } });
 }
 
-for (const name of ["triangles", "quads_in_space", "coarsened", "differential"])
+for (const name of ["triangles", "quads_in_space", "coarsened", "differential", "cut"])
     test(`${name}: every map with everything that can be shown`, async ({ open }) => {
         const page = await open(name), seen = new Set();
         for (const option of await page.locator("#map option").all()) {
@@ -59,13 +59,13 @@ for (const name of ["triangles", "quads_in_space", "coarsened", "differential"])
             }
         }
         expect(seen.size).toBeGreaterThan(3);
-        for (const layer of ["trajectories", "points", "ellipses", "edges"]) {
+        for (const layer of ["trajectories", "across", "points", "ellipses", "edges"]) {
             const box = page.locator(`#${layer}`);
             if (await box.isDisabled()) continue;
             const before = await pictureOf(page, "source");
             await box.setChecked(!await box.isChecked());
             await expect(page.locator("#busy")).toBeEmpty();
-            if (name === "differential") expect((await pictureOf(page, "source")).sum).not.toBe(before.sum);
+            if (["differential", "cut"].includes(name)) expect((await pictureOf(page, "source")).sum).not.toBe(before.sum);
         }
         await page.getByLabel("faces", { exact: true }).check();
         await expect(page.locator("#histogram rect").first()).toBeVisible();
@@ -122,9 +122,42 @@ test("an image is laid over both figures", async ({ open }) => {
 
 test("trajectories and zeros are those of φ where the page brings one", async ({ open }) => {
     const page = await open("differential");
-    await expect(page.locator("#trajectories-name")).toHaveText("trajectories of φ");
+    await expect(page.locator("#trajectories-name")).toHaveText("horizontal trajectories of φ");
     await expect(page.locator("#points-name")).toHaveText("1 zero, 1 pole");
     await expect(page.locator("#points")).toBeChecked();
+});
+
+test("a surface that is cut open shows its polygon, and lines that go on across the cut", async ({ open }) => {
+    const page = await open("cut");
+    await expect(page.locator("#points-name")).toHaveText("1 zero (2 by order), no poles");
+    await expect(page.locator("#outline-choice")).toBeHidden();
+    await page.selectOption("#map", { label: "fundamental polygon" });
+    await expect(page.locator("#image-caption")).toContainText("The source, cut open — in the plane");
+    const pictures = async () => Promise.all(["source", "image"].map(async figure => (await pictureOf(page, figure)).sum));
+    const shown = await pictures();
+    await page.locator("#outline").uncheck();
+    const hidden = await pictures();
+    expect(hidden[0]).not.toBe(shown[0]);  // the cut
+    expect(hidden[1]).not.toBe(shown[1]);  // the outline
+    // The line through a face near the right side goes on from the left side: it is drawn there too.
+    await page.locator("#points").uncheck();
+    const left = () => page.evaluate(async () => {
+        const image = await createImageBitmap(document.getElementById("image")), { width, height } = image;
+        const context = new OffscreenCanvas(width, height).getContext("2d");
+        context.drawImage(image, 0, 0);
+        const { data } = context.getImageData(width * 0.3, height * 0.3, width * 0.08, height * 0.4);
+        return data.reduce((sum, value, i) => (31 * sum + value * (i % 97)) % 2147483647, 0);
+    });
+    await page.waitForTimeout(250);
+    const before = await left();
+    await clickAt(page, "image", 0.42, 0);
+    await expect(page.locator("#readout")).toContainText("face");
+    await page.mouse.move(5, 5);
+    await expect.poll(left).not.toBe(before);
+    await page.locator("#image").press("Escape");
+    await page.locator("#trajectories").check();
+    await expect(page.locator("#busy")).toBeEmpty();
+    expect((await pictures())[1]).not.toBe(hidden[1]);
 });
 
 test("a page of 200 000 faces opens and turns", async ({ open }) => {

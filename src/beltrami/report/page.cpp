@@ -10,6 +10,7 @@
 #include <numbers>
 #include <numeric>
 #include <string_view>
+#include <unordered_map>
 
 #include <beltrami/base/error.h>
 #include <beltrami/locate/corner_weights.h>
@@ -69,26 +70,46 @@ class Base64 {
 
 /// Centred and scaled in double precision to the square or cube [-1, 1], then stored as floats: large offsets cost no
 /// digits. A third coordinate that is 0 everywhere is left out.
-Json encode_positions(const Positions& positions) {
+/// @param outline curves in the same plane, which count for the square too
+Json encode_positions(const Positions& positions, const std::vector<Positions>& outline = {}) {
     const Eigen::Index dimension = positions.cols() > 2 && !positions.col(2).isZero(0.0) ? 3 : 2;
     Eigen::RowVectorXd low = Eigen::RowVectorXd::Constant(dimension, std::numeric_limits<double>::infinity());
     Eigen::RowVectorXd high = -low;
-    for (Eigen::Index row = 0; row < positions.rows(); ++row) {
-        const auto point = positions.row(row).head(dimension);
-        if (!point.allFinite()) continue;
-        low = low.cwiseMin(point);
-        high = high.cwiseMax(point);
-    }
+    const auto hold = [&](const Positions& points) {
+        for (Eigen::Index row = 0; row < points.rows(); ++row) {
+            const auto point = points.row(row).head(dimension);
+            if (!point.allFinite()) continue;
+            low = low.cwiseMin(point);
+            high = high.cwiseMax(point);
+        }
+    };
+    hold(positions);
+    if (dimension == 2) std::for_each(outline.begin(), outline.end(), hold);
     double radius = 0.5 * (high - low).maxCoeff();
     if (!(radius > 0.0) || !std::isfinite(radius)) radius = 1.0;
     const Eigen::RowVectorXd centre = 0.5 * (low + high);
-    Base64 encoded(sizeof(float) * static_cast<std::size_t>(positions.rows() * dimension));
-    for (Eigen::Index row = 0; row < positions.rows(); ++row) {
-        for (Eigen::Index i = 0; i < dimension; ++i) {
-            encoded.add(static_cast<float>((positions(row, i) - centre[i]) / radius));
+    const auto encode = [&](const Positions& points) {
+        Base64 encoded(sizeof(float) * static_cast<std::size_t>(points.rows() * dimension));
+        for (Eigen::Index row = 0; row < points.rows(); ++row) {
+            for (Eigen::Index i = 0; i < dimension; ++i) {
+                encoded.add(static_cast<float>((points(row, i) - centre[i]) / radius));
+            }
         }
-    }
-    return {{"dimension", dimension}, {"radius", radius}, {"coordinates", encoded.finish()}};
+        return encoded.finish();
+    };
+    Json result{{"dimension", dimension}, {"radius", radius}, {"coordinates", encode(positions)}};
+    for (const Positions& curve : outline)
+        if (dimension == 2) result["outline"].push_back(encode(curve));
+    return result;
+}
+
+/// For every vertex the first one that is a copy of the same.
+std::string encode_joined(const std::vector<int>& joined) {
+    std::unordered_map<int, std::uint32_t> first;
+    Base64 encoded(sizeof(std::uint32_t) * joined.size());
+    for (std::size_t v = 0; v < joined.size(); ++v)
+        encoded.add(first.try_emplace(joined[v], static_cast<std::uint32_t>(v)).first->second);
+    return encoded.finish();
 }
 
 /// Angles of trajectories, of each drawn triangle from its first edge, in units of π/65535; 65535 where there is none.
@@ -204,6 +225,23 @@ Json histogram(const Eigen::VectorXd& abs_mu, const Eigen::VectorXd& weights, do
     return {{"bins", bins}, {"above", above}, {"flipped", flipped}, {"undefined", undefined}};
 }
 
+/// What a map does to the faces, and its φ.
+/// @param positions of the drawn vertices
+/// @param end       of the histogram
+void add_values(const PageContent& content, const PageMap& map, const Drawing& drawing, const Positions& positions,
+                const Eigen::VectorXd& areas, double end, Json& entry) {
+    Base64 values(sizeof(float) * drawing.faces.size());
+    for (const int face : drawing.faces) values.add(static_cast<float>(map.abs_mu[face]));
+    entry["abs_mu"] = values.finish();
+    if (map.differential) {
+        entry["directions"] = encode_directions(content.source, drawing, positions, map.differential->angles);
+        entry["critical_points"] = critical_points(content.source, drawing, map.differential->points);
+    }
+    entry["p99"] = weighted_quantile(map.abs_mu, areas, 0.99);
+    entry["histogram"] = {{"area", histogram(map.abs_mu, areas, end)},
+                          {"faces", histogram(map.abs_mu, Eigen::VectorXd::Ones(areas.size()), end)}};
+}
+
 std::string dump(const Json& json) {
     return json.dump(-1, ' ', true, Json::error_handler_t::replace);
 }
@@ -248,9 +286,11 @@ std::string escape_html(const std::string& text) {
 
 Json require_record(const PageContent& content) {
     if (content.maps.empty()) throw Error(Cause::bad_option, "the page has no map to show", "give at least one");
+    if (content.maps[0].of_source)
+        throw Error(Cause::bad_option, "the first map of the page is a picture of its source", "give a map before it");
     for (const PageMap& map : content.maps) {
         const bool fits = map.map.rows() == content.source.vertex_count() && map.map.cols() >= 2 &&
-                          map.map.cols() <= 3 && map.abs_mu.size() == content.source.face_count() &&
+                          map.map.cols() <= 3 && (map.of_source || map.abs_mu.size() == content.source.face_count()) &&
                           (!map.differential || map.differential->angles.size() == content.source.face_count());
         if (fits) continue;
         throw Error(Cause::bad_option,
@@ -260,6 +300,9 @@ Json require_record(const PageContent& content) {
                                 "of the {} faces",
                                 content.source.vertex_count(), content.source.face_count()));
     }
+    if (!content.joined.empty() && static_cast<int>(content.joined.size()) != content.source.vertex_count())
+        throw Error(Cause::bad_option, fmt::format("{} copies of vertices are named for {} vertices",
+                                                   content.joined.size(), content.source.vertex_count()));
     Json record = Json::parse(content.record_json, nullptr, false);
     if (!record.is_object()) throw Error(Cause::bad_option, "the page's record is not a JSON object");
     return record;
@@ -295,27 +338,25 @@ std::string render_page(const PageContent& content) {
     if (!identity) data["face"] = faces.finish();
     const Positions positions = drawing.reduce(mesh.positions);
     data["source"] = encode_positions(positions);
+    // A coarser mesh merges the copies of a vertex.
+    if (!content.joined.empty() && !drawing.coarsened()) data["joined"] = encode_joined(content.joined);
     if (!content.texture.empty()) data["texture"] = data_address(content.texture);
 
     Eigen::VectorXd areas(mesh.face_count());
     for (int face = 0; face < mesh.face_count(); ++face) areas[face] = face_vector_area(mesh, face).norm();
     double end = 0.0;
-    for (const PageMap& map : content.maps) end = std::max(end, weighted_quantile(map.abs_mu, areas, 0.995));
+    for (const PageMap& map : content.maps)
+        if (!map.of_source) end = std::max(end, weighted_quantile(map.abs_mu, areas, 0.995));
     end = std::min(round_up(1.02 * end), 1.0);
     data["histogram_end"] = end;
     for (const PageMap& map : content.maps) {
-        Json entry = encode_positions(drawing.reduce(map.map));
+        if (map.of_source && drawing.coarsened()) continue;
+        Json entry = encode_positions(drawing.reduce(map.map), map.outline);
         entry["name"] = map.name;
-        Base64 values(sizeof(float) * drawing.faces.size());
-        for (const int face : drawing.faces) values.add(static_cast<float>(map.abs_mu[face]));
-        entry["abs_mu"] = values.finish();
-        if (map.differential) {
-            entry["directions"] = encode_directions(mesh, drawing, positions, map.differential->angles);
-            entry["critical_points"] = critical_points(mesh, drawing, map.differential->points);
-        }
-        entry["p99"] = weighted_quantile(map.abs_mu, areas, 0.99);
-        entry["histogram"] = {{"area", histogram(map.abs_mu, areas, end)},
-                              {"faces", histogram(map.abs_mu, Eigen::VectorXd::Ones(areas.size()), end)}};
+        if (map.of_source)
+            entry["of_source"] = true;
+        else
+            add_values(content, map, drawing, positions, areas, end, entry);
         data["maps"].push_back(std::move(entry));
     }
 

@@ -383,6 +383,46 @@ TEST(Drawing, CoarseVerticesAreMeans) {
     }
 }
 
+/// A square whose left and right sides are one line on the surface, as copies, and a picture of it in the plane.
+PageContent cut_content(const Mesh& square) {
+    PageContent content =
+        content_of(square, {{"registration", square.positions, Eigen::VectorXd::Constant(square.face_count(), 0.3)}});
+    const int n = static_cast<int>(std::lround(std::sqrt(square.vertex_count()))) - 1;
+    for (int v = 0; v < square.vertex_count(); ++v) content.joined.push_back(v % (n + 1) == n ? v - n : v);
+    PageMap polygon{"fundamental polygon", square.positions.leftCols(2), {}};
+    polygon.of_source = true;
+    polygon.outline.emplace_back(2, 2);
+    polygon.outline[0] << 1e6 - 2, -2, 1e6 + 2, 2;
+    content.maps.push_back(std::move(polygon));
+    return content;
+}
+
+TEST(Page, ASourceThatIsCutOpenHasCopiesAndAPictureWithAnOutline) {
+    const Mesh square = bumpy_square(4);
+    const PageContent content = cut_content(square);
+    const Json data = data_of(render_page(content));
+    const std::vector<std::uint32_t> joined = decode_words(data["joined"]);
+    ASSERT_EQ(joined.size(), 25U);
+    for (std::uint32_t v = 0; v < 25; ++v) EXPECT_EQ(joined[v], v % 5 == 4 ? v - 4 : v);
+    const Json& picture = data["maps"][1];
+    EXPECT_TRUE(picture["of_source"].get<bool>());
+    EXPECT_FALSE(picture.contains("abs_mu"));
+    EXPECT_EQ(decode_floats(picture["outline"][0]), (std::vector<float>{-1, -1, 1, 1}));  // larger than the square
+    EXPECT_EQ(decode_floats(picture["coordinates"])[0], -0.5f);
+
+    PageContent alone = content;
+    alone.maps.erase(alone.maps.begin());
+    EXPECT_EQ(test::cause_of([&] { render_page(alone); }), Cause::bad_option);
+    PageContent other = content;
+    other.joined.pop_back();
+    EXPECT_EQ(test::cause_of([&] { render_page(other); }), Cause::bad_option);
+    PageContent coarse = content;
+    coarse.drawn_faces = 10;
+    const Json coarsened = data_of(render_page(coarse));
+    EXPECT_FALSE(coarsened.contains("joined"));
+    EXPECT_EQ(coarsened["maps"].size(), 1U);
+}
+
 /// For the check in a browser: pages of every kind, written where BELTRAMI_PAGES says.
 TEST(Page, WritesPagesForTheBrowserCheck) {
     const char* folder = std::getenv("BELTRAMI_PAGES");
@@ -418,6 +458,12 @@ TEST(Page, WritesPagesForTheBrowserCheck) {
     PageContent differential = content_of(triangles, {with_differential});
     differential.texture = two_pixels;
     write("differential.html", differential);
+    PageContent cut = cut_content(triangles);
+    PageDifferential& on_cut = cut.maps[0].differential.emplace();
+    on_cut.angles = Eigen::VectorXd::Constant(triangles.face_count(), 0.1);
+    const auto corner = triangles.faces[900];
+    on_cut.points.push_back({{900, {corner[0], corner[1], corner[2]}, {0.3, 0.3, 0.4}}, 2, false});
+    write("cut.html", cut);
     const Mesh large = bumpy_square(317);
     write("large.html", content_of(large, {flat_map(large)}));
 }

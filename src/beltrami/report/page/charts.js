@@ -13,9 +13,9 @@ function chart(id, height) {
 
 export function drawHistogram() {
     const narrow = $("histogram-section").clientWidth < 440, row = narrow ? 92 : 76, left = 4, extra = narrow ? 15 : 0;
-    const { svg, width } = chart("histogram", data.maps.length * row + 40);
+    const shown = data.maps.filter(map => !map.of_source), { svg, width } = chart("histogram", shown.length * row + 40);
     const end = data.histogram_end, right = width - 12, at = m => left + (right - left) * m / end;
-    data.maps.forEach((map, i) => {
+    shown.forEach((map, i) => {
         const { name } = map, histogram = map.histogram[state.shares];
         const base = (i + 1) * row, peak = Math.max(...histogram.bins, 1e-12), n = histogram.bins.length;
         const group = svgElement(svg, "g", { class: "bins" });
@@ -34,7 +34,7 @@ export function drawHistogram() {
         svgElement(svg, "text", { x: narrow ? left : right, y: base - row + 18 + extra,
             "text-anchor": narrow ? "start" : "end" }, extras.join(" · "));
     });
-    const low = data.maps.length * row;
+    const low = shown.length * row;
     for (const [m, text] of roundTicks(0, end, width > 420 ? 6 : 4)) {
         svgElement(svg, "line", { class: "axis", x1: at(m), x2: at(m), y1: low, y2: low + 4 });
         svgElement(svg, "text", { x: at(m), y: low + 18, "text-anchor": m ? "middle" : "start" }, m ? text : "0");
@@ -42,8 +42,8 @@ export function drawHistogram() {
     svgElement(svg, "text", { x: (left + right) / 2, y: low + 36, "text-anchor": "middle" }, "|μ|");
     const of = state.shares === "area" ? "the source's area" : "the faces";
     $("histogram-note").textContent = `Share of ${of} by |μ|` +
-        (data.maps.length > 1 ? "; each row is scaled to its own peak." : ".");
-    const shares = data.maps.map(map => `${map.name}, 99 % of the area below ${show(map.p99)}`);
+        (shown.length > 1 ? "; each row is scaled to its own peak." : ".");
+    const shares = shown.map(map => `${map.name}, 99 % of the area below ${show(map.p99)}`);
     svg.setAttribute("aria-label", `Histogram of |μ|, share of ${of}: ` + shares.join("; "));
 }
 

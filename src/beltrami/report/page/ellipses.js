@@ -9,8 +9,9 @@ const MOST_TRIES = 40000, ROUNDEST = 40;
 const middleOf = (points, t) => [0, 1, 2].map(i =>
     (points[3 * triangles[3 * t] + i] + points[3 * triangles[3 * t + 1] + i] + points[3 * triangles[3 * t + 2] + i]) / 3);
 
-/// 18 numbers each: centre and half axes on the source, centre and half axes in the image.
-export function ellipses({ absMu, surface: image }) {
+/// 18 numbers each: centre and half axes on the source, centre and half axes in the image. In a picture of the source
+/// itself they stay ellipses.
+export function ellipses({ absMu, surface: image, measured, of_source: whole }) {
     const cells = new Map(), result = [];
     const cellOf = p => p.map(x => Math.floor(x / APART) + 2048), key = (i, j, k) => (i * 4096 + j) * 4096 + k;
     const near = p => {
@@ -25,14 +26,14 @@ export function ellipses({ absMu, surface: image }) {
         seed = (seed * 1103515245 + 12345) % 2147483648;
         const t = Math.floor(seed / 2147483648 * triangleCount), middle = middleOf(source.points, t);
         if (!(absMu[t] < 1) || near(middle)) continue;
-        const { largest, least, angle } = stretchOf(image, t), ratio = Math.sqrt(largest / least), ends = middleOf(image.points, t);
+        const { largest, least, angle } = stretchOf(measured.surface, t), ratio = Math.sqrt(largest / least), ends = middleOf(image.points, t);
         if (!(ratio < ROUNDEST) || !ends.every(isFinite)) continue;
         const cell = key(...cellOf(middle));
         cells.set(cell, [...(cells.get(cell) ?? []), middle]);
         // In the frames of the two triangles the map is [p q; 0 r]; the axes of the ellipse go to those of the circle.
         const here = {}, there = {}, from = flattened(source.points, t, here), to = flattened(image.points, t, there);
         const p = to.length / from.length, q = (to.x - p * from.x) / from.y, r = to.y / from.y;
-        const size = Math.min(Math.max(Math.sqrt(largest * least), 0.35), 1.6) / Math.sqrt(largest * least);
+        const scale = Math.sqrt(Math.abs(p * r)), size = whole ? 1 : Math.min(Math.max(scale, 0.35), 1.6) / scale;
         const axes = [[Math.cos(angle), Math.sin(angle), RADIUS / ratio], [-Math.sin(angle), Math.cos(angle), RADIUS * ratio]];
         const inSpace = ({ axes: [e, f] }, x, y) => [0, 1, 2].map(i => x * e[i] + y * f[i]);
         result.push(...middle, ...axes.flatMap(([x, y, s]) => inSpace(here, s * x, s * y)),

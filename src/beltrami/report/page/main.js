@@ -4,17 +4,19 @@ import "./page.css";
 import { drawCharts, drawHistogram } from "./charts.js";
 import { viridisAt } from "./colours.js";
 import { ellipses } from "./ellipses.js";
-import { maps, readMesh, source, triangleCount } from "./mesh.js";
+import { copyOf, maps, readMesh, source, triangleCount } from "./mesh.js";
 import {
     $, count, data, dilatation, element, isNumber, percent, record, show, words, writeComparison, writeNumbers, writeRecord,
     writeSentence,
 } from "./numbers.js";
-import { has, hide, makeScene, showEdges, showEllipses, showLines, showMap, showPicture, showPoints } from "./scene.js";
+import {
+    cutPieces, has, hide, makeScene, outlinePieces, showEdges, showEllipses, showLines, showMap, showPicture, showPoints,
+} from "./scene.js";
 import { state } from "./state.js";
 import { linesThrough, trajectories } from "./trajectories.js";
 import { hover, makeViews, nudge, pick, redraw } from "./view.js";
 
-const WHITE = [1, 1, 1], ALONG = [1, 0.62, 0.25], ACROSS = [0.45, 0.85, 1];
+const WHITE = [1, 1, 1], ALONG = [1, 0.62, 0.25], ACROSS = [0.45, 0.85, 1], CUT = [0.95, 0.3, 0.3];
 const busy = text => { $("busy").textContent = text; };
 let views;
 
@@ -29,25 +31,46 @@ async function chooseMap(index) {
     if (isNumber(origin.genus)) facts.push(`genus ${origin.genus}`);
     if (origin.boundary_loops) facts.push(count(origin.boundary_loops.length, "boundary loop"));
     $("source-caption").replaceChildren(element("b", { textContent: "Source" }), " — " + facts.join(", "));
-    $("image-caption").replaceChildren(element("b", { textContent: `Image, ${words(map.name)} map` }),
-        " — " + (planar ? "in the plane" : "in space") +
+    $("image-caption").replaceChildren(element("b", { textContent: map.of_source ? "The source, cut open" : imageInWords(map) }),
+        " — " + placeInWords(map) +
         (histogram.flipped ? `, ${percent(histogram.flipped)} of the area flipped` : ""));
     $("source").setAttribute("aria-label", `Source surface, coloured by |μ| of the ${words(map.name)} map`);
-    $("image").setAttribute("aria-label", `Image under the ${words(map.name)} map, coloured by |μ|`);
+    $("image").setAttribute("aria-label", map.of_source ? `The source cut open, with a ${words(map.name)}, coloured by |μ|`
+                                                        : `Image under the ${words(map.name)} map, coloured by |μ|`);
     // Round circles lie in a plane; of surfaces in space the ellipses say the same.
     allow("input[value=circles]", planar || source.planar);
     if (state.overlay === "circles" && !planar && !source.planar) chooseOverlay("none");
-    $("trajectories-name").textContent = map.directions ? "trajectories of φ" : "lines of largest stretch";
-    const points = map.critical_points ?? [], number = wanted => points.filter(({ order }) => wanted(order)).length;
-    const zeros = number(order => order > 0), poles = number(order => order < 0);
-    $("points-name").textContent = points.length ? `${count(zeros, "zero")}, ${count(poles, "pole")}` : "zeros and poles";
+    $("trajectories-name").textContent = map.directions ? "horizontal trajectories of φ" : "lines of largest stretch";
+    $("across-name").textContent = map.directions ? "vertical ones" : "of least stretch";
+    const points = map.critical_points ?? [];
+    $("points-name").textContent = pointsInWords(points);
     allow("#points", points.length > 0);
+    $("outline-choice").hidden = !map.outline.length;
+    $("outline-name").textContent = copyOf ? "polygon and cut" : "outline";
     updateLegend();
     hover(-1);
     if (!views) return;
     showMap(map);
     for (const view of views) await view.show();
     await refreshLayers();
+}
+
+/// Zeros are counted as often as their order says.
+function pointsInWords(points) {
+    if (!points.length) return "zeros and poles";
+    const some = (wanted, word) => {
+        const orders = points.map(({ order }) => order).filter(wanted), sum = Math.abs(orders.reduce((a, b) => a + b, 0));
+        return count(orders.length, word) + (sum > orders.length ? ` (${sum} by order)` : "");
+    };
+    return `${some(order => order > 0, "zero")}, ${some(order => order < 0, "pole")}`;
+}
+
+const imageInWords = ({ name }) => ["after", "before"].includes(name) ? `The mesh ${name}` : `Image, ${words(name)} map`;
+
+/// Where the image lies.
+function placeInWords({ surface: { planar }, outline }) {
+    if (copyOf && outline.length) return outline.length > 1 ? "in the hyperbolic plane, a disk" : "in the plane, over a parallelogram";
+    return planar ? "in the plane" : "in space";
 }
 
 function allow(selector, allowed) {
@@ -67,11 +90,19 @@ async function refreshLayers() {
     if (state.edges) await showEdges();
     if (state.ellipses && !has("ellipses")) showEllipses(ellipses(map));
     if (state.points && !has("points")) showPoints(criticalPoints(map));
-    if (state.trajectories && !has("lines")) {
+    for (const [name, wanted, turn, colour] of [["across", state.across, Math.PI / 2, ACROSS], ["lines", state.trajectories, 0, WHITE]]) {
+        if (!wanted || has(name)) continue;
         busy("Drawing lines …");
-        const pieces = await trajectories(map);
-        if (state.map === map) showLines("lines", pieces, WHITE, 1.5);
+        const pieces = await trajectories(map, turn);
+        if (state.map === map) showLines(name, pieces, colour, 1.5);
         busy("");
+    }
+    if (state.outline && map.outline.length && !has("outline")) {
+        showLines("outline", outlinePieces(map), WHITE, 1.7);
+        if (copyOf) {
+            const pieces = await cutPieces(map);
+            if (state.map === map) showLines("cut", pieces, CUT, 1.4);
+        }
     }
     redraw();
 }
@@ -146,7 +177,7 @@ function connect() {
     $("map").onchange = () => chooseMap(+$("map").value);
     for (const input of document.querySelectorAll("input[name=overlay]"))
         input.onchange = () => { state.overlay = input.value; redraw(); };
-    for (const layer of ["edges", "trajectories", "ellipses", "points"]) {
+    for (const layer of ["edges", "trajectories", "across", "ellipses", "points", "outline"]) {
         $(layer).checked = state[layer];
         $(layer).onchange = () => { state[layer] = $(layer).checked; refreshLayers(); };
     }

@@ -22,6 +22,10 @@ export async function inSlices(count, body) {
 export let triangles, triangleCount, faces;  // three vertices a triangle; the face of the mesh behind each
 export let corners, origins;  // three *corners* a triangle; the vertex of each corner
 export let source, maps;
+export let copyOf = null;  // of a surface that is cut open: the vertex that each vertex is a copy of
+
+/// Whether two vertices are one on the surface.
+export const sameVertex = (a, b) => copyOf ? copyOf[a] === copyOf[b] : a === b;
 
 async function decode(base64, Type) {
     const bytes = Uint8Array.fromBase64 ? Uint8Array.fromBase64(base64) : new Uint8Array(3 * base64.length / 4
@@ -51,15 +55,19 @@ async function surface({ dimension, coordinates }) {
             const vx = flat[c] - flat[a], vy = flat[c + 1] - flat[a + 1], vz = flat[c + 2] - flat[a + 2];
             const x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
             if (!isFinite(x + y + z)) continue;
-            for (const v of [a, b, c]) { normals[v] += x; normals[v + 1] += y; normals[v + 2] += z; }
+            for (const corner of [a, b, c]) {
+                const v = copyOf ? 3 * copyOf[corner / 3] : corner;
+                normals[v] += x; normals[v + 1] += y; normals[v + 2] += z;
+            }
             mean[0] += x; mean[1] += y; mean[2] += z;
             area += Math.hypot(x, y, z);
         }
     });
     await inSlices(count, (first, last) => {
         for (let v = 3 * first; v < 3 * last; v += 3) {
-            const length = Math.hypot(normals[v], normals[v + 1], normals[v + 2]) || 1;
-            for (let i = 0; i < 3; ++i) normals[v + i] /= length;
+            const own = copyOf ? 3 * copyOf[v / 3] : v;  // not after v
+            const length = own < v ? 1 : Math.hypot(normals[v], normals[v + 1], normals[v + 2]) || 1;
+            for (let i = 0; i < 3; ++i) normals[v + i] = normals[own + i] / length;
         }
     });
     return { planar: false, points: flat, normals, facing: Math.hypot(...mean) > 0.2 * area ? mean : null };
@@ -90,15 +98,23 @@ export async function readMesh() {
     triangles = await decode(data.triangles, Uint32Array);
     triangleCount = triangles.length / 3;
     faces = data.face ? await decode(data.face, Uint32Array) : Uint32Array.from({ length: triangleCount }, (_, t) => t);
+    copyOf = data.joined ? await decode(data.joined, Uint32Array) : null;
     source = await surface(data.source);
     await makeCorners();
     maps = [];
     for (const map of data.maps) {
+        if (map.of_source) {  // all but its place is that of the first map
+            maps.push({ ...maps[0], ...map, surface: await surface(map), measured: maps[0], ...await outlines(map) });
+            continue;
+        }
         const directions = map.directions && await decode(map.directions, Uint16Array);
         maps.push({ ...map, absMu: await decode(map.abs_mu, Float32Array), directions, surface: await surface(map),
-                    scale: map.radius / data.source.radius });
+                    scale: map.radius / data.source.radius, ...await outlines(map) });
+        maps.at(-1).measured = maps.at(-1);
     }
 }
+
+const outlines = async ({ outline = [] }) => ({ outline: await Promise.all(outline.map(curve => decode(curve, Float32Array))) });
 
 let neighbours;
 
@@ -106,14 +122,15 @@ let neighbours;
 export async function edgeNeighbours() {
     if (neighbours) return neighbours;
     const vertexCount = source.points.length / 3, first = new Uint32Array(vertexCount + 1);
-    for (const vertex of triangles) ++first[vertex + 1];
+    const vertexAt = e => copyOf ? copyOf[triangles[e]] : triangles[e];
+    for (let e = 0; e < triangles.length; ++e) ++first[vertexAt(e) + 1];
     for (let v = 0; v < vertexCount; ++v) first[v + 1] += first[v];
     const edges = new Uint32Array(triangles.length), next = first.slice();  // those that leave each vertex
-    for (let e = 0; e < triangles.length; ++e) edges[next[triangles[e]]++] = e;
-    const end = e => triangles[e % 3 === 2 ? e - 2 : e + 1], found = new Int32Array(triangles.length).fill(-1);
+    for (let e = 0; e < triangles.length; ++e) edges[next[vertexAt(e)]++] = e;
+    const end = e => vertexAt(e % 3 === 2 ? e - 2 : e + 1), found = new Int32Array(triangles.length).fill(-1);
     await inSlices(triangles.length, (from, to) => {
         for (let e = from; e < to; ++e) {
-            const a = triangles[e], b = end(e);
+            const a = vertexAt(e), b = end(e);
             for (let i = first[b]; i < first[b + 1]; ++i) if (end(edges[i]) === a) { found[e] = edges[i] / 3 | 0; break; }
         }
     });

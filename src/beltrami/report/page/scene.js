@@ -1,14 +1,14 @@
 // What is drawn, on the graphics card: one scene for all figures, drawn from each figure's side in turn.
 
 import {
-    BufferAttribute, BufferGeometry, Camera, CustomBlending, DataTexture, DoubleSide, GLSL3, InstancedBufferGeometry,
+    BufferAttribute, BufferGeometry, Camera, CanvasTexture, CustomBlending, DataTexture, DoubleSide, GLSL3, InstancedBufferGeometry,
     InstancedInterleavedBuffer, InterleavedBufferAttribute, LinearFilter, LineSegments, Matrix3, Mesh, MirroredRepeatWrapping,
     OneFactor, OneMinusSrcAlphaFactor, RawShaderMaterial, RGBAFormat, Scene, Sphere, Texture, Vector2, Vector3, Vector4, WebGLRenderer,
     LinearSRGBColorSpace,
 } from "three";
 
 import { viridisAt } from "./colours.js";
-import { corners, edgeNeighbours, faces, inSlices, maps, origins, source, triangleCount, triangles } from "./mesh.js";
+import { copyOf, corners, edgeNeighbours, faces, inSlices, maps, origins, source, triangleCount, triangles } from "./mesh.js";
 import * as shaders from "./shaders.js";
 import { state } from "./state.js";
 import { flattened } from "./stretch.js";
@@ -58,6 +58,20 @@ function palette() {
     return texture;
 }
 
+/// The orders of zeros as they are written into their discs: 2 to 9, then +.
+const GLYPHS = "23456789+";
+function glyphs() {
+    const side = 64, sheet = new OffscreenCanvas(side * GLYPHS.length, side), context = sheet.getContext("2d");
+    context.font = `bold ${0.8 * side}px sans-serif`;
+    context.textAlign = "center";
+    context.textBaseline = "middle";
+    [...GLYPHS].forEach((glyph, i) => context.fillText(glyph, (i + 0.5) * side, 0.54 * side));
+    const texture = new CanvasTexture(sheet);
+    texture.minFilter = LinearFilter;
+    texture.generateMipmaps = false;
+    return texture;
+}
+
 function fill(array, points) {  // no card draws what is not a number
     for (let c = 0; c < origins.length; ++c)
         for (let i = 0; i < 3; ++i) array[3 * c + i] = isFinite(points[3 * origins[c] + i]) ? points[3 * origins[c] + i] : 0;
@@ -102,7 +116,7 @@ export function showMap(map) {
         buffers.absMu.array[corners[3 * t + 2]] = m !== m ? -1 : m > 1 ? 2 : m;
     }
     for (const name of ["image", "imageNormal", "absMu"]) buffers[name].needsUpdate = true;
-    for (const name of ["lines", "ellipses", "points", "picked", "pickedAcross"]) drop(name);
+    for (const name of ["lines", "across", "ellipses", "points", "picked", "pickedAcross", "outline", "cut"]) drop(name);
 }
 
 function drop(name) {
@@ -125,7 +139,7 @@ export function showEllipses(array) {
 }
 export function showPoints(array) {
     drop("points");
-    parts.points = add(new Mesh(instances(array, 7, POINT, SQUARE), material(shaders.points, { halfWidth: { value: 6 } }, over)), 4);
+    parts.points = add(new Mesh(instances(array, 7, POINT, SQUARE), material(shaders.points, { halfWidth: { value: 6 }, glyphs: { value: glyphs() } }, over)), 4);
     parts.points.userData.width = 6.5;
 }
 export const hide = drop;
@@ -139,7 +153,8 @@ export async function showEdges() {
     await inSlices(triangleCount, (first, last) => {
         for (let e = 3 * first; e < 3 * last; ++e) {
             const next = neighbours[e], t = e / 3 | 0, ends = [triangles[e], triangles[e % 3 === 2 ? e - 2 : e + 1]];
-            if ((next < 0 || next > t && faces[next] !== faces[t]) && ends.every(placed)) index.push(...ends);
+            const cut = copyOf && next >= 0 && !ends.every(v => [0, 1, 2].some(i => triangles[3 * next + i] === v));
+            if ((next < 0 || (next > t || cut) && faces[next] !== faces[t]) && ends.every(placed)) index.push(...ends);
         }
     });
     const geometry = new BufferGeometry();
@@ -147,6 +162,30 @@ export async function showEdges() {
     geometry.setAttribute("image", buffers.image);
     geometry.setIndex(new BufferAttribute(new Uint32Array(index), 1));
     parts.edges = add(new LineSegments(geometry, material(shaders.edges, { fade: { value: 1 } }, over)), 1);
+}
+
+/// Curves of the image, in its own figure only: pieces as trajectories() makes them.
+export function outlinePieces({ outline }) {
+    const pieces = [];
+    for (const curve of outline) for (let i = 0; i + 3 < curve.length; i += 2) {
+        const from = [curve[i], curve[i + 1], 0], to = [curve[i + 2], curve[i + 3], 0];
+        pieces.push(...from, ...to, ...from, ...to);
+    }
+    return new Float32Array(pieces);
+}
+
+/// The edges along which the source is cut open.
+export async function cutPieces({ surface: image }) {
+    const neighbours = await edgeNeighbours(), pieces = [];
+    const at = (points, v) => [points[3 * v], points[3 * v + 1], points[3 * v + 2]];
+    await inSlices(triangleCount, (first, last) => {
+        for (let e = 3 * first; e < 3 * last; ++e) {
+            const next = neighbours[e], ends = [triangles[e], triangles[e % 3 === 2 ? e - 2 : e + 1]];
+            if (next < 0 || ends.every(v => [0, 1, 2].some(i => triangles[3 * next + i] === v))) continue;
+            pieces.push(...ends.flatMap(v => at(source.points, v)), ...ends.flatMap(v => at(image.points, v)));
+        }
+    });
+    return new Float32Array(pieces);
 }
 
 /// @param address of an image, as data:
@@ -220,8 +259,8 @@ async function coarser(points, order) {
 }
 
 /// Draws what a figure shows onto its canvas.
-/// @param figure axes, scale and shift in pixels, blend, align, index, size, whether it moves
-export function draw({ axes, frame, blend, align, index, moves, width, height, ratio, shaded, edgePixels, context, flat }) {
+/// @param figure axes, scale and shift in pixels, blend, align, index, size, whether it moves, whether it is the image's
+export function draw({ isImage, axes, frame, blend, align, index, moves, width, height, ratio, shaded, edgePixels, context, flat }) {
     const { domElement: sheet } = renderer;
     if (sheet.width !== width || sheet.height !== height) renderer.setSize(width, height, false);
     shared.axes.value.set(...axes.flat());
@@ -242,7 +281,8 @@ export function draw({ axes, frame, blend, align, index, moves, width, height, r
         edges.visible = state.edges && !(moves && index.moving);
         edges.material.uniforms.fade.value = 0.75 * Math.min(Math.max((edgePixels / ratio - 3) / 12, 0.16), 1);
     }
-    for (const [name, wanted] of [["lines", state.trajectories], ["ellipses", state.ellipses], ["points", state.points],
+    for (const [name, wanted] of [["lines", state.trajectories], ["across", state.across], ["outline", state.outline && isImage],
+                                  ["cut", state.outline && !isImage], ["ellipses", state.ellipses], ["points", state.points],
                                   ["picked", state.picked >= 0], ["pickedAcross", state.picked >= 0]]) {
         const part = parts[name];
         if (!part) continue;

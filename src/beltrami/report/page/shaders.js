@@ -152,7 +152,7 @@ void main() {
 }`,
 };
 
-/// Zeros: discs; poles: squares.
+/// Zeros: discs, with their order where it is above 1; poles: squares.
 export const points = {
     vertex: `${place}
 in vec2 position;
@@ -166,17 +166,22 @@ void main() {
     at = position;
     kind = order;
     vec4 middle = seen(between(centre, imageCentre), 2e-2);
-    gl_Position = middle + vec4(position * pixel * halfWidth * (1.0 + 0.25 * max(order - 1.0, 0.0)), 0.0, 0.0);
+    gl_Position = middle + vec4(position * pixel * halfWidth * (order > 1.0 ? 1.6 : 1.0), 0.0, 0.0);
 }`,
     fragment: `
 precision highp float;
 in vec2 at;
 flat in float kind;
+uniform sampler2D glyphs;
 out vec4 colour;
 void main() {
     float away = kind < 0.0 ? max(abs(at.x), abs(at.y)) * 1.25 : length(at), soft = fwidth(away) + 1e-6;
     float inside = clamp((1.0 - away) / soft, 0.0, 1.0), core = clamp((0.68 - away) / soft + 0.5, 0.0, 1.0);
     vec3 filling = kind < 0.0 ? vec3(1.0, 0.62, 0.25) : vec3(1.0);
+    if (kind > 1.0) {
+        vec2 cell = clamp(0.5 + 0.62 * at, 0.0, 1.0);
+        core *= 1.0 - texture(glyphs, vec2((min(kind, 10.0) - 2.0 + cell.x) / 9.0, cell.y)).a;
+    }
     colour = vec4(mix(vec3(0.05, 0.06, 0.09), filling, core), 1.0) * inside;
 }`,
 };

@@ -6,6 +6,6 @@ export const state = {
     shares: "area",     // of the histogram
     top: 1,             // |μ| of the last colour
     blend: 0,           // of the source's figure: 0 the source, 1 the image
-    edges: false, trajectories: false, ellipses: false, points: false,
+    edges: false, trajectories: false, across: false, ellipses: false, points: false, outline: true,
     picked: -1,         // a triangle
 };

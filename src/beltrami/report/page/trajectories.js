@@ -1,18 +1,19 @@
 // Trajectories on the triangles: lines along a field of directions, evenly spaced (Jobard & Lefer 1997).
 
-import { edgeNeighbours, source, triangleCount, triangles } from "./mesh.js";
+import { edgeNeighbours, sameVertex, source, triangleCount, triangles } from "./mesh.js";
 import { flattened, stretchOf } from "./stretch.js";
 
 const SPACING = 0.085;         // between lines, in half widths of the surface
 const LONGEST = 14, MOST_LINES = 260, MOST_TRIES = 6000, MOST_STEPS = 20000;
 const FINEST = 0.01;           // length of the pieces that are drawn
+const JUMP = 1e-3;             // of a line's image where it is cut open
 const HUGGING = 0.02;          // radians by which a line leaves an edge along which the field pushes it
 const UNDEFINED_DIRECTION = 0xffff;
 
 /// The field of a map: angles from each triangle's first edge, NaN where there is none. Of φ, where the page brings it,
 /// its horizontal trajectories; else the direction in which the map stretches most, where it tells one from the others.
 export function fieldOf(map) {
-    const { directions, absMu, surface } = map;
+    const { directions, absMu, measured: { surface } } = map;
     return t => {
         if (directions) return directions[t] === UNDEFINED_DIRECTION ? NaN : directions[t] * Math.PI / UNDEFINED_DIRECTION;
         return absMu[t] > 0.02 && absMu[t] < 1 ? stretchOf(surface, t).angle : NaN;
@@ -45,7 +46,8 @@ const edgeAngle = ({ length, x, y }, edge) =>
 const pointAt = (points, { t, weights }) => [0, 1, 2].map(i => weights[0] * points[3 * triangles[3 * t] + i] +
     weights[1] * points[3 * triangles[3 * t + 1] + i] + weights[2] * points[3 * triangles[3 * t + 2] + i]);
 
-/// Walks from the middle of a triangle; visit(place, length) gets every crossing of an edge and ends the walk with false.
+/// Walks from the middle of a triangle; visit(segment, length) gets the way through every triangle and ends the walk with
+/// false.
 function walk(neighbours, field, start, heading, visit) {
     let t = start, weights = [1 / 3, 1 / 3, 1 / 3], length = 0;
     for (let step = 0; step < MOST_STEPS; ++step) {
@@ -55,13 +57,14 @@ function walk(neighbours, field, start, heading, visit) {
         for (let i = 0; i < 3; ++i)
             if (rates[i] < -1e-9 && weights[i] / -rates[i] < way) { way = weights[i] / -rates[i]; exit = i; }
         if (exit < 0 || !isFinite(way)) return;
+        const from = weights;
         weights = weights.map((w, i) => i === exit ? 0 : Math.max(w + way * rates[i], 0));
         length += way;
-        if (!visit({ t, weights }, length)) return;
+        if (!visit({ t, from, to: weights }, length)) return;
         const edge = (exit + 1) % 3, next = neighbours[3 * t + edge];
         if (next < 0) return;
         const vertex = triangles[3 * t + (exit + 2) % 3];  // where the edge begins for the next triangle
-        const begin = [0, 1, 2].find(i => triangles[3 * next + i] === vertex);
+        const begin = [0, 1, 2].find(i => sameVertex(triangles[3 * next + i], vertex));
         const after = flattened(source.points, next), turned = edgeAngle(after, begin) + Math.PI;
         const coming = heading - edgeAngle(shape, edge) + turned;
         heading = field(next);
@@ -77,33 +80,42 @@ function walk(neighbours, field, start, heading, visit) {
     }
 }
 
-/// A line through the middle of a triangle, both ways, as places in order.
+/// A line through the middle of a triangle, both ways, as segments in order.
 function line(neighbours, field, start, turn, accept) {
     const heading = field(start) + turn;
     if (!isFinite(heading)) return [];
-    const middle = { t: start, weights: [1 / 3, 1 / 3, 1 / 3] }, halves = [[], []];
-    for (const side of [0, 1]) walk(neighbours, t => field(t) + turn, start, heading + side * Math.PI, (place, length) => {
-        halves[side].push(place);
-        return length < LONGEST && accept(place, side ? -length : length);
+    const halves = [[], []];
+    for (const side of [0, 1]) walk(neighbours, t => field(t) + turn, start, heading + side * Math.PI, (segment, length) => {
+        halves[side].push(segment);
+        return length < LONGEST && accept({ t: segment.t, weights: segment.to }, side ? -length : length);
     });
-    return [...halves[1].reverse(), middle, ...halves[0]];
+    return [...halves[1].reverse().map(({ t, from, to }) => ({ t, from: to, to: from })), ...halves[0]];
 }
 
-/// Straight pieces of places, short in the source and in the image: 12 numbers each, both ends there and there.
-function addPieces(pieces, places, image) {
-    let last = null;
-    places.forEach((place, i) => {
-        const here = [pointAt(source.points, place), pointAt(image.points, place)];
-        if (!here.flat().every(isFinite)) { last = null; return; }
-        const far = last && [0, 1].some(j => Math.hypot(...here[j].map((x, k) => x - last[j][k])) > FINEST);
-        if (last && !far && i + 1 < places.length) return;
-        if (last) pieces.push(...last[0], ...here[0], ...last[1], ...here[1]);
-        last = here;
-    });
+/// Straight pieces of segments, short in the source and in the image: 12 numbers each, both ends there and there. Where
+/// the image is cut open a piece ends and another one begins on the other side.
+function addPieces(pieces, segments, image) {
+    const at = (t, weights) => [pointAt(source.points, { t, weights }), pointAt(image.points, { t, weights })];
+    const apart = (p, q) => Math.max(...[0, 1].map(j => Math.hypot(...p[j].map((x, k) => x - q[j][k]))));
+    let begin = null, end = null;
+    const finish = () => {
+        if (begin && apart(begin, end) > 0) pieces.push(...begin[0], ...end[0], ...begin[1], ...end[1]);
+        begin = null;
+    };
+    for (const { t, from, to } of segments) {
+        const here = at(t, from), there = at(t, to);
+        if (!here.flat().every(isFinite) || !there.flat().every(isFinite)) { finish(); continue; }
+        if (begin && apart(end, here) > JUMP) finish();
+        begin ??= here;
+        end = there;
+        if (apart(begin, end) > FINEST) { finish(); begin = end; }
+    }
+    finish();
 }
 
+/// @param turn from the field, in radians: a right angle gives the vertical trajectories, lines of least stretch
 /// @return pieces as addPieces makes them
-export async function trajectories(map) {
+export async function trajectories(map, turn) {
     const neighbours = await edgeNeighbours(), field = fieldOf(map), passed = new Passed(SPACING), pieces = [];
     let seed = 1, lines = 0, begun = performance.now();
     for (let tried = 0; tried < Math.min(MOST_TRIES, 4 * triangleCount) && lines < MOST_LINES; ++tried) {
@@ -114,7 +126,7 @@ export async function trajectories(map) {
         if (passed.near(middle, SPACING, lines, 0)) continue;
         const points = [[middle, 0]];
         let checked = [0, 0];
-        const found = line(neighbours, field, start, 0, (place, length) => {
+        const found = line(neighbours, field, start, turn, (place, length) => {
             const side = length < 0 ? 1 : 0;
             if (Math.abs(length - checked[side]) < 0.2 * SPACING) return true;
             checked[side] = length;

@@ -96,7 +96,7 @@ class View {
         const begun = performance.now(), width = Math.round(box.width * ratio), height = Math.round(box.height * ratio);
         const size = this.fit(box.width, box.height) * this.zoom, sourceShade = source.planar ? 0 : 1, imageShade = state.map.surface.planar ? 0 : 1;
         draw({
-            axes: this.axes, blend: this.blend, align: this.align, index: this.index, moves: this.moves, width, height, ratio,
+            isImage: this.isImage, axes: this.axes, blend: this.blend, align: this.align, index: this.index, moves: this.moves, width, height, ratio,
             frame: [2 * size / box.width, 2 * size / box.height, 2 * this.panX * this.fit(box.width, box.height) / box.width,
                     -2 * this.panY * this.fit(box.width, box.height) / box.height],
             shaded: sourceShade * (1 - this.blend) + imageShade * this.blend, flat: this.flat, context: this.context,
@@ -261,8 +261,7 @@ function numbersOf(t) {
     if (m > 1) words.push("flipped");
     else if (m !== m) words.push("undefined");
     else {
-        const { largest, least } = stretchOf(state.map.surface, t);
-        const { scale } = state.map;
+        const { measured: { surface, scale } } = state.map, { largest, least } = stretchOf(surface, t);
         words.push(`K ${show(dilatation(m))}`, `stretches ${show(scale * least, 3)} … ${show(scale * largest, 3)}`,
                    `area × ${show(scale * scale * least * largest, 3)}`);
     }
