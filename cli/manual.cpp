@@ -138,8 +138,12 @@ std::string manual_page(const CLI::App& app, const std::string& version, const s
     std::string page =
         fmt::format(".TH BELTRAMI 1 \"\" \"beltrami {}\" \"User Commands\"\n.SH NAME\nbeltrami \\- {}\n.SH SYNOPSIS\n",
                     version, "extremal quasiconformal maps of meshes");
-    for (const CLI::App* command : commands_of(app))
-        page += fmt::format(".B beltrami {}\n[\\fIoptions\\fR] \\fI...\\fR\n.br\n", command->get_name());
+    for (const CLI::App* command : commands_of(app)) {
+        page += fmt::format(".B beltrami {}\n[\\fIoptions\\fR]", command->get_name());
+        for (const Entry& entry : entries_of(*command))
+            if (entry.names.empty()) page += " \\fI" + roff(entry.value) + "\\fR";
+        page += "\n.br\n";
+    }
     page += ".SH DESCRIPTION\n" + roff(app.get_description()) + "\n.SH OPTIONS\n";
     for (const Entry& entry : entries_of(app)) page += roff_entry(entry);
     page += ".SH COMMANDS\n";
@@ -177,6 +181,12 @@ std::string bash_completion(const CLI::App& app) {
 _beltrami() {{
     local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD-1]}} options= words=
     COMPREPLY=()
+    # "--option=value" comes as three words
+    if [[ $word == = ]]; then
+        word=
+    elif [[ $before == = ]]; then
+        before=${{COMP_WORDS[COMP_CWORD-2]}}
+    fi
     if ((COMP_CWORD == 1)); then
         COMPREPLY=($(compgen -W '{} {}' -- "$word"))
         return
