@@ -23,6 +23,7 @@
 #include <string>
 #include <vector>
 
+#include <beltrami/base/memory.h>
 #include <beltrami/base/parallel.h>
 #include <beltrami/beltrami.h>
 #include <beltrami/io/number_lists.h>
@@ -106,6 +107,7 @@ double median(std::vector<double> values) {
 
 void measure_pinned(const std::filesystem::path& folder) {
     constexpr int rounds = 7;
+    ready_memory(0);
     const Mesh mesh = read_mesh(folder / "mcqc3d_planar_src.obj").mesh;
     const IndexedRows pins = read_indexed_rows(folder / "mcqc3d_pins.txt", 1, mesh.vertex_count(), 2, "a pin");
     BoundaryCondition boundary;
@@ -159,6 +161,7 @@ int main(int argc, char** argv) {
         std::vector<Measurement> all;
         for (const int size : sizes) {
             const Measurement harmonic = in_child([&] {
+                ready_memory(0);
                 const Surface surface(mesh_of(name, size));
                 Measurement m;
                 m.seconds = harmonic_seconds(surface, boundary_of(name, surface));
@@ -168,6 +171,7 @@ int main(int argc, char** argv) {
                 Mesh mesh = mesh_of(name, size);
                 Measurement m;
                 const double start = now();
+                ready_memory(kMemoryPerFace * static_cast<std::size_t>(mesh.face_count()));
                 const Surface surface(std::move(mesh));
                 const ExtremalMap result = extremal_map(surface, boundary_of(name, surface));
                 m.seconds = now() - start;

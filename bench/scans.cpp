@@ -21,6 +21,7 @@
 #include <vector>
 
 #include <beltrami/base/error.h>
+#include <beltrami/base/memory.h>
 #include <beltrami/beltrami.h>
 #include <beltrami/certificate/proved_bounds.h>
 #include <beltrami/certificate/verified_bracket.h>
@@ -137,6 +138,7 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "usage: bench_scans FOLDER [NAME...]\n");
         return 2;
     }
+    ready_memory(0);
     const std::vector<std::string> wanted(argv + 2, argv + argc);
     std::vector<std::filesystem::path> files;
     for (const auto& entry : std::filesystem::directory_iterator(argv[1]))
@@ -144,7 +146,7 @@ int main(int argc, char** argv) {
             files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     fmt::print(
-        "| scan | faces | rim | slack | K_lower | K | gap | K_lower_proved | K_upper | attained | std in the chart | "
+        "| scan | faces | rim | slack | K_lower | K | gap | polygons: K_lower_proved | K_upper | attained | std in the chart | "
         "mean "
         "| std | flips | iterations | termination | ratio | cause |\n"
         "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- "

@@ -1,0 +1,57 @@
+#include <beltrami/base/memory.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <mutex>
+
+#if defined(__GLIBC__) && defined(__linux__)
+#include <malloc.h>
+#include <sys/mman.h>
+#include <unistd.h>
+#endif
+
+namespace beltrami {
+
+#if defined(__GLIBC__) && defined(__linux__)
+
+namespace {
+
+/// The heap grows by so much more than it has to.
+constexpr int kPad = 1 << 20;
+#ifdef MADV_POPULATE_WRITE
+constexpr int kPopulate = MADV_POPULATE_WRITE;
+#else
+constexpr int kPopulate = 23;  // Linux 5.14; older ones refuse it, and nothing is lost
+#endif
+
+}  // namespace
+
+void ready_memory(std::size_t bytes) {
+    static std::once_flag once;
+    std::call_once(once, [] {
+        mallopt(M_MMAP_MAX, 0);  // pages that are mapped one by one are given back when they are freed
+        mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+        mallopt(M_TOP_PAD, kPad);
+        mallopt(M_ARENA_MAX, 1);
+    });
+    const long page_size = sysconf(_SC_PAGESIZE), free_pages = sysconf(_SC_AVPHYS_PAGES);
+    if (page_size <= 0 || free_pages <= 0) return;
+    const auto page = static_cast<std::uintptr_t>(page_size);
+    bytes = std::min(bytes, static_cast<std::size_t>(free_pages) / 2 * page);
+    void* const block = bytes > 0 ? std::malloc(bytes) : nullptr;
+    if (!block) return;
+    const auto at = reinterpret_cast<std::uintptr_t>(block);
+    const std::uintptr_t first = (at + page - 1) / page * page, last = (at + bytes) / page * page;
+    if (last > first) madvise(reinterpret_cast<void*>(first), last - first, kPopulate);
+    std::free(block);
+}
+
+#else
+
+void ready_memory(std::size_t) {}
+
+#endif
+
+}  // namespace beltrami
