@@ -7,6 +7,9 @@
 
 #include <beltrami/charts/boundary_values.h>
 #include <beltrami/charts/round_disk.h>
+#include <beltrami/generate/round_domains.h>
+#include <beltrami/mesh/subdivide.h>
+#include <beltrami/mesh/topology.h>
 #include <beltrami/operators/distortion.h>
 #include <beltrami/solve/beltrami_solver.h>
 #include <beltrami/teichmuller/extremal_map.h>
@@ -197,6 +200,28 @@ TEST(ChartMetric, AnAffineMapOfAParaboloidIsFoundMoreExactly) {
     EXPECT_LT(in_chart[0], 0.005);
     EXPECT_LT(in_chart[1], 0.012);
     for (const int i : {0, 1, 2}) EXPECT_LT(in_chart[i], on_surface[i]) << i;
+}
+
+/// A scan that was coarse before it was divided: teeth of so many edges all along its rim.
+TEST(ChartMetric, AnOutlineOfTeethGetsNoFunctionsForEach) {
+    Mesh mesh = disk(7);
+    const std::vector<int> rim = topology(mesh).boundary_loops[0];
+    for (std::size_t i = 0; i < rim.size(); ++i) mesh.positions.row(rim[i]) *= i % 2 ? 0.92 : 1.08;
+    for (int division = 0; division < 3; ++division) mesh = midpoint_subdivide(mesh).mesh;
+    const Positions flat = mesh.positions;
+    mesh.positions.resize(flat.rows(), 3);
+    for (Eigen::Index v = 0; v < flat.rows(); ++v)
+        mesh.positions.row(v) << flat(v, 0), flat(v, 1), 0.3 * std::exp(-3 * flat.row(v).squaredNorm());
+    const Surface source(std::move(mesh));
+    ExtremalOptions options;
+    options.chart_metric = true;
+    const ExtremalMap map = extremal_map(source, boundary_to_disk(source, 0.5), options);
+    EXPECT_TRUE(map.distortion.flipped.empty());
+    ASSERT_TRUE(map.in_chart);
+    // Poles at its 42 corners would be 300 functions and more.
+    EXPECT_GT(map.corners.size(), 24u);
+    EXPECT_LE(map.history.back().functions, map.in_chart->degree + 1);
+    EXPECT_LT(map.K, 1.1 * map.K_lower);
 }
 
 }  // namespace
