@@ -10,6 +10,7 @@
 #include <beltrami/base/error.h>
 #include <beltrami/linear/element_system.h>
 #include <beltrami/plane/circle_fit.h>
+#include <beltrami/plane/increasing.h>
 #include <beltrami/plane/target_curve.h>
 
 namespace beltrami {
@@ -32,6 +33,8 @@ constexpr int kInteriorSteps = 60;
 constexpr double kInteriorTolerance = 1e-12;
 /// The matrix is made definite by this part of its mean diagonal: a shift of all points changes no u.
 constexpr double kShift = 1e-10;
+/// So many of the edges may run backwards in the chart, which get at least this part of the mean of those around them.
+constexpr double kMostBackward = 0.05, kOfNeighbours = 0.1;
 /// Edges of a block.
 constexpr int kBlock = 4;
 
@@ -231,20 +234,27 @@ Eigen::VectorXd minimum_in_box(SlackForm& hessian, const Eigen::VectorXd& q, con
     return x;
 }
 
-/// Angles of the rim's edges in the chart.
+/// Angles of the rim's edges in the chart. The few that teeth and folded faces of a scan turn back are taken from their
+/// neighbours.
 Eigen::VectorXd rim_angles(const std::vector<int>& rim, const Chart& chart) {
     const std::size_t n = rim.size();
-    Eigen::VectorXd angles(static_cast<Eigen::Index>(n));
+    std::vector<double> angles;
+    std::size_t backward = 0, first = 0;
+    double sum = 0;
     for (std::size_t i = 0; i < n; ++i) {
         const double angle = std::arg(chart.vertices[rim[(i + 1) % n]] / chart.vertices[rim[i]]);
-        if (!(angle > 0))
-            throw Error(Cause::bad_boundary,
-                        "the boundary does not run forward in the conformal chart at vertex " + std::to_string(rim[i]) +
-                            ", so its points cannot be moved against their noise",
-                        "use no slack, or mend the mesh there", {Things::vertices, {rim[i]}});
-        angles[static_cast<Eigen::Index>(i)] = angle;
+        sum += angle;
+        if (!(angle > 0) && backward++ == 0) first = i;
+        angles.push_back(std::max(angle, 0.0));
     }
-    return angles * (kTwoPi / angles.sum());
+    if (static_cast<double>(backward) > kMostBackward * static_cast<double>(n) || !(std::abs(sum - kTwoPi) < 1e-6))
+        throw Error(Cause::bad_boundary,
+                    "the boundary does not run forward in the conformal chart at vertex " + std::to_string(rim[first]) +
+                        ", so its points cannot be moved against their noise",
+                    "use no slack, or mend the mesh there", {Things::vertices, {rim[first]}});
+    if (backward > 0) raise_to_neighbours(angles, kOfNeighbours);
+    const Eigen::Map<const Eigen::VectorXd> result(angles.data(), static_cast<Eigen::Index>(n));
+    return result * (kTwoPi / result.sum());
 }
 
 /// The rim in the chart and along the target.
