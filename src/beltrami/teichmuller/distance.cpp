@@ -1,12 +1,16 @@
 #include <beltrami/teichmuller/distance.h>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <string>
+#include <thread>
 
 #include <beltrami/base/error.h>
+#include <beltrami/base/parallel.h>
 #include <beltrami/certificate/modulus.h>
 #include <beltrami/charts/shape.h>
 #include <beltrami/teichmuller/naming.h>
@@ -106,36 +110,51 @@ DistanceMatrix distance_matrix(const std::vector<Surface>& surfaces, const Corre
                             std::to_string(surfaces[i].topology.boundary_loops.size()),
                         "compare shapes with the same number of holes", {Things::shapes, {0, i}});
     const bool by_moduli = wanted.loops.empty() && decided_by_moduli(surfaces[0], wanted, wanted.outer_loop);
-    std::vector<ModulusBracket> moduli;
-    std::vector<std::unique_ptr<const Shape>> shapes;
-    for (int i = 0; i < n; ++i)
+    std::vector<ModulusBracket> moduli(static_cast<std::size_t>(n), ModulusBracket{1, 1});
+    std::vector<std::unique_ptr<const Shape>> shapes(static_cast<std::size_t>(n));
+    // Shapes and pairs side by side: a map by itself has less to do for a second thread.
+    parallel_for_each(n, [&](int i) {
         naming(name(i), {i}, [&] {
             if (by_moduli) {
-                moduli.push_back(modulus_of(surfaces[i]));
+                moduli[i] = modulus_of(surfaces[i]);
                 return;
             }
-            shapes.push_back(std::make_unique<const Shape>(surfaces[i]));
-            shapes.back()->circles(wanted.outer_loop);
+            shapes[i] = std::make_unique<const Shape>(surfaces[i]);
+            shapes[i]->circles(wanted.outer_loop);
         });
+    });
     const bool as_they_are = wanted.loops.empty() && wanted.marks.empty() && !wanted.waypoints;
+    std::vector<std::array<int, 2>> pairs;
+    for (int i = 0; i < n; ++i)
+        for (int j = i + 1; j < n; ++j) pairs.push_back({i, j});
+    const int all = static_cast<int>(pairs.size());
+    std::vector<Distance> found(pairs.size());
+    std::atomic<int> done = 0;
+    const std::thread::id asking = std::this_thread::get_id();
+    const auto tell = [&](int count) {
+        if (progress && !progress(count, all)) throw Error(Cause::cancelled, "cancelled");
+    };
+    parallel_for_each(all, [&](int p) {
+        const auto [i, j] = pairs[p];
+        if (!as_they_are || !same_shape(surfaces[i], surfaces[j]))
+            naming(name(i) + " and " + name(j), {i, j}, [&, i = i, j = j] {
+                found[p] = by_moduli
+                               ? distance_of(moduli[i], moduli[j])
+                               : teichmueller_distance(*shapes[i], *shapes[j], wanted, options, wanted.outer_loop);
+            });
+        const int count = ++done;
+        if (count < all && std::this_thread::get_id() == asking) tell(count);
+    });
+    tell(all);
     DistanceMatrix result;
     result.distance = result.lower = result.upper = Eigen::MatrixXd::Zero(n, n);
-    int done = 0;
-    for (int i = 0; i < n; ++i)
-        for (int j = i + 1; j < n; ++j) {
-            Distance d;
-            if (!as_they_are || !same_shape(surfaces[i], surfaces[j]))
-                naming(name(i) + " and " + name(j), {i, j}, [&] {
-                    d = by_moduli ? distance_of(moduli[i], moduli[j])
-                                  : teichmueller_distance(*shapes[i], *shapes[j], wanted, options, wanted.outer_loop);
-                });
-            result.distance(i, j) = result.distance(j, i) = d.distance;
-            result.lower(i, j) = result.lower(j, i) = d.lower;
-            result.upper(i, j) = result.upper(j, i) = d.upper;
-            if (!d.settled) result.unsettled.push_back({i, j});
-            ++done;
-            if (progress && !progress(done, n * (n - 1) / 2)) throw Error(Cause::cancelled, "cancelled");
-        }
+    for (int p = 0; p < all; ++p) {
+        const auto [i, j] = pairs[p];
+        result.distance(i, j) = result.distance(j, i) = found[p].distance;
+        result.lower(i, j) = result.lower(j, i) = found[p].lower;
+        result.upper(i, j) = result.upper(j, i) = found[p].upper;
+        if (!found[p].settled) result.unsettled.push_back({i, j});
+    }
     return result;
 }
 

@@ -35,9 +35,12 @@ struct DistanceMatrix {
     std::vector<std::array<int, 2>> unsettled;  ///< pairs some map of which has not converged or has folds
 };
 
-/// Every shape is charted once, or its modulus worked out. Shapes that are the same mesh have distance 0. @param
-/// surfaces at least two, kept by reference during the call
-/// @param progress called after each pair with their number; returning false cancels (Error cancelled)
+/// Every shape is charted once, or its modulus worked out; shapes, then pairs, on all threads side by side. Shapes that
+/// are the same mesh have distance 0.
+/// @param surfaces at least two, kept by reference during the call
+/// @param options  progress in them may be called from several threads at once
+/// @param progress called on this thread, from time to time and in the end, with the number of pairs that are done;
+///                 returning false cancels (Error cancelled)
 /// @param names    what errors call the shapes; empty: "shape 0" …
 /// @throw Error bad_mesh naming a shape that is not of genus 0 with a boundary; bad_boundary naming two shapes with
 ///        different numbers of loops; as extremal_map, naming the pair
