@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -21,6 +23,7 @@ namespace {
 constexpr double kNeedle = 0.999;  // |μ| of a face from which on steps begin strongly damped
 constexpr double kNeedleDamping = 1e5;
 constexpr int kFirstSteps = 6, kPowerSteps = 8, kRounds = 25, kStepsOfRound = 2;
+constexpr double kGain = 0.01;  // of the mean of ψ^{p/2}: what two steps have to bring for two more
 constexpr double kTolerance = 1e-3, kRoundTolerance = 1e-4;
 
 double diagonal_of(const Mesh& mesh) {
@@ -117,6 +120,71 @@ void warn_of_tips(RemeshedSurface& result) {
                                {Things::faces, result.unresolved}});
 }
 
+/// Two steps at a time, vertices drawn back between them that have gone too far or around which faces oppose the
+/// surface that did not before, until that is so nowhere and steps gain little. The best map of those that keep both is
+/// the result.
+class Rounds {
+  public:
+    Rounds(const Surface& surface, const Operators& reference, const MeshTarget& target, const RemeshOptions& options)
+        : surface_(surface),
+          reference_(reference),
+          target_(target),
+          options_(options),
+          allowed_(options.max_distance * diagonal_of(surface.mesh)),
+          opposed_before_(opposed_faces(surface.mesh, target)) {}
+
+    void run(TangentialMap& map, RemeshedSurface& result) const {
+        std::optional<TargetMap> best;
+        double least = std::numeric_limits<double>::infinity(), last = least;
+        for (; result.rounds < kRounds; ++result.rounds) {
+            const double mean = mean_power(map.coefficients());
+            const std::vector<int> opposing = around_newly_opposed(map.positions());
+            const bool kept = map.hold_within(allowed_).vertices == 0 && opposing.empty();
+            map.draw_back(opposing);
+            if (kept && mean < least) {
+                least = mean;
+                best = map.map();
+            }
+            if (kept && !(mean < (1 - kGain) * last)) break;
+            last = mean;
+            map.relax(options_.power, kStepsOfRound, kRoundTolerance);
+        }
+        result.settled = best.has_value();
+        if (best) map.return_to(std::move(*best));
+    }
+
+  private:
+    double mean_power(const Eigen::VectorXcd& mu) const {
+        double sum = 0;
+        for (int s = 0; s < reference_.sample_count(); ++s) {
+            const double square = std::norm(mu[s]);
+            sum += reference_.weights[s] * std::pow(square / (1 - square), 0.5 * options_.power);
+        }
+        return sum;
+    }
+
+    /// Vertices of faces that oppose the surface and did not at the start.
+    std::vector<int> around_newly_opposed(Positions positions) const {
+        Mesh image = surface_.mesh;
+        image.positions = std::move(positions);
+        std::vector<int> vertices;
+        for (const int f : opposed_faces(image, target_)) {
+            if (std::binary_search(opposed_before_.begin(), opposed_before_.end(), f)) continue;
+            vertices.insert(vertices.end(), image.faces[f].begin(), image.faces[f].end());
+        }
+        std::sort(vertices.begin(), vertices.end());
+        vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+        return vertices;
+    }
+
+    const Surface& surface_;
+    const Operators& reference_;
+    const MeshTarget& target_;
+    const RemeshOptions& options_;
+    double allowed_;
+    std::vector<int> opposed_before_;  // ascending
+};
+
 RemeshedSurface fast(const Surface& surface, const CornerElements& elements, const MeshTarget& target,
                      const TargetConstraints& constraints) {
     std::vector<char> fixed(static_cast<std::size_t>(surface.mesh.vertex_count()), 0);
@@ -167,11 +235,7 @@ RemeshedSurface remesh(const Surface& surface, const Positions& reference, const
     RemeshedSurface result;
     map.relax(2, kFirstSteps, kTolerance);
     if (options.power > 2) map.relax(options.power, kPowerSteps, kTolerance);
-    const double allowed = options.max_distance * diagonal_of(surface.mesh);
-    for (; result.rounds < kRounds && !result.settled; ++result.rounds) {
-        result.settled = map.hold_within(allowed).vertices == 0;
-        if (!result.settled) map.relax(options.power, kStepsOfRound, kRoundTolerance);
-    }
+    Rounds(surface, elements.operators, target, options).run(map, result);
     result.positions = map.positions();
     result.places = places_of(map.points());
     result.steps = map.steps();

@@ -282,6 +282,18 @@ Positions TangentialMap::direction(const BarrierEnergy& energy) {
     return motion_along(place_, ways, solution);
 }
 
+void TangentialMap::draw_back(std::span<const int> vertices) {
+    for (const int v : vertices) {
+        if (stiffness_[v] == 0) quadric_[v] += kAllRound * Eigen::Matrix3d::Identity();
+        stiffness_[v] = std::max(kStiffnessFactor * stiffness_[v], kFirstStiffness);
+    }
+}
+
+void TangentialMap::return_to(TargetMap map) {
+    map_ = std::move(map);
+    follow_cusps();
+}
+
 /// Holds the vertices of samples that keep a step short.
 void TangentialMap::hold_blocked(const TargetMap& trial) {
     const Positions points = positions_of(trial.points), normals = normals_of(trial.points);
@@ -291,12 +303,10 @@ void TangentialMap::hold_blocked(const TargetMap& trial) {
         if (at.upright && std::abs(at.q) < kNearlyFolded * std::abs(at.p)) continue;
         for (const int v : operators_.stencil(s)) blocking[v] = 1;
     }
-    for (std::size_t v = 0; v < blocking.size(); ++v) {
-        if (!blocking[v]) continue;
-        double& stiffness = stiffness_[static_cast<Eigen::Index>(v)];
-        if (stiffness == 0) quadric_[v] += kAllRound * Eigen::Matrix3d::Identity();
-        stiffness = std::max(kStiffnessFactor * stiffness, kFirstStiffness);
-    }
+    std::vector<int> held;
+    for (std::size_t v = 0; v < blocking.size(); ++v)
+        if (blocking[v]) held.push_back(static_cast<int>(v));
+    draw_back(held);
 }
 
 TangentialMap::Taken TangentialMap::step(BarrierEnergy& energy) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -55,6 +56,12 @@ class TangentialMap {
     /// Raises κ where the start (its vertices and the middles of its edges) is farther from the image, or the image
     /// (its middles of triangles) from the target, than a distance.
     Strayed hold_within(double distance);
+    /// Raises κ of vertices, and draws them in every direction, not only off their faces' planes.
+    void draw_back(std::span<const int> vertices);
+
+    /// Where the map is, and back to where it was.
+    const TargetMap& map() const { return map_; }
+    void return_to(TargetMap map);
 
     Positions positions() const { return positions_of(map_.points); }
     const Target::Points& points() const { return map_.points; }
