@@ -57,6 +57,7 @@ std::unique_ptr<Command> make_transfer(CLI::App& parent);
 std::unique_ptr<Command> make_batch(CLI::App& parent);
 std::unique_ptr<Command> make_remesh(CLI::App& parent);
 std::unique_ptr<Command> make_deform(CLI::App& parent);
+std::unique_ptr<Command> make_image(CLI::App& parent);
 
 /// Exit codes by cause; --help lists them.
 int exit_code(Cause cause);

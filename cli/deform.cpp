@@ -1,15 +1,12 @@
-#include <set>
-
-#include <fmt/format.h>
-
 #include <beltrami/applications/deform.h>
 #include <beltrami/base/error.h>
-#include <beltrami/io/number_lists.h>
 
 #include "command.h"
 #include "mesh_input.h"
 #include "output.h"
 #include "page.h"
+#include "space_input.h"
+#include "space_target.h"
 #include "words.h"
 
 namespace beltrami::cli {
@@ -21,7 +18,8 @@ class Deform final : public Command {
     explicit Deform(CLI::App& parent) {
         CLI::App* app = parent.add_subcommand(
             "deform", "a surface in space deformed by handles, with small dilatation and without folds");
-        app->add_option("MESH", source_, "OBJ, PLY, OFF or STL; of any topology, triangles and quads")->required();
+        app->add_option("MESH", source_, "OBJ, PLY, OFF or STL; of any topology, faces of any number of corners")
+            ->required();
         app->add_option("--pin", pins_, "the handles: lines `vertex x y z`, boundary loops or any vertices")
             ->required()
             ->type_name("FILE");
@@ -30,15 +28,23 @@ class Deform final : public Command {
             ->required()
             ->type_name("OUT");
         app->add_option("--onto", target_,
-                        "the surface on which the result is to lie; handles go to its nearest points")
+                        std::string("the surface on which the result is to lie, a file or ") + kNamedSurfaces +
+                            "; handles go to its nearest points")
             ->type_name("SURFACE");
+        app->add_option("--minimize", goal_,
+                        "what is made small of the map onto the surface: K, by the extremal map with bounds, where the "
+                        "whole boundary of a MESH of genus 0 has places; max, the largest |mu|; spread, the standard "
+                        "deviation of |mu|, by Gruber and Aulisa's iteration or the powers")
+            ->check(CLI::IsMember({"K", "max", "spread"}))
+            ->capture_default_str();
         app->add_option("--surface", surface_,
                         "without --onto: thin-plate, rigid (as rigid as possible), uniform (Gruber and Aulisa's QC "
                         "iteration), or the first of them without folds")
             ->check(CLI::IsMember({"automatic", "thin-plate", "rigid", "uniform"}))
             ->capture_default_str();
-        app->add_option("--p", wanted_.last_power,
-                        "up to which power the dilatation counts: 2 for the mean, 32 for the largest |mu|")
+        app->add_option(
+               "--p", wanted_.last_power,
+               "of --minimize max and spread: up to which power |mu| counts, 2 for the mean, 32 for the largest")
             ->check(CLI::Range(2.0, 64.0))
             ->capture_default_str();
         options_.add_to(*app);
@@ -48,16 +54,16 @@ class Deform final : public Command {
 
     int run() override {
         require_mesh_format(output_);
-        common_.check_files({{"MESH", source_}, {"--pin", pins_}, {"--onto", target_}}, {{"-o", output_}});
+        std::vector<NamedFile> inputs{{"MESH", source_}, {"--pin", pins_}};
+        if (!names_surface(target_)) inputs.push_back({"--onto", target_});
+        common_.check_files(inputs, {{"-o", output_}});
+        if (!target_.empty() && surface_ != "automatic")
+            throw Error(Cause::bad_option, "--surface chooses one where there is no --onto", "leave one of them out");
         record_.command = "deform";
-        input_ = options_.load(source_, record_.warnings);
-        cut_folded_quads(input_, record_.warnings);
-        const Surface surface(input_.mesh);
-        add_findings(surface.findings, record_.warnings);
-        record_.source = source_record(surface, input_.unit);
-        const auto [handles, places] = read_pins();
+        const Surface surface = surface_in_space(options_, source_, input_, record_);
+        const PlacesInSpace handles = places_in_space(pins_, input_, "a handle");
         const double start = seconds();
-        conclude(surface, handles.size(), solved(surface, handles, places), start);
+        conclude(surface, handles.vertices.size(), solved(surface, handles), start);
         return 0;
     }
 
@@ -68,36 +74,27 @@ class Deform final : public Command {
     }
 
   private:
-    std::pair<std::vector<int>, Positions> read_pins() const {
-        const IndexedRows rows =
-            read_indexed_rows(pins_, 1, static_cast<int>(input_.numbers.size()), 3, "a handle: vertex x y z");
-        std::vector<int> handles;
-        std::set<int> seen;
-        for (Eigen::Index i = 0; i < rows.indices.rows(); ++i) {
-            handles.push_back(input_.number_of(rows.indices(i, 0), "a handle"));
-            if (!seen.insert(handles.back()).second)
-                throw Error(Cause::bad_boundary, fmt::format("{} names vertex {} twice", pins_, rows.indices(i, 0)),
-                            "give one place", {Things::vertices, {handles.back()}});
-        }
-        return {std::move(handles), rows.values / input_.unit};
-    }
-
-    Deformation solved(const Surface& surface, const std::vector<int>& handles, const Positions& places) {
+    Deformation solved(const Surface& surface, const PlacesInSpace& handles) {
         Progress progress(!common_.quiet);
         DeformOptions options = wanted_;
         options.progress = [&](int step, double value) {
-            progress.show(step, value, "F");
+            progress.show(step, value, goal_ == "K" ? "k" : "F");
             return true;
         };
         for (const DeformedSurface kind :
              {DeformedSurface::thin_plate, DeformedSurface::rigid, DeformedSurface::uniform})
             if (surface_ == to_string(kind)) options.surface = kind;
-        DeformSolver solver(surface, handles, options);
-        if (target_.empty()) return solver.solve(places);
-        MeshInput target = MeshInputOptions().load(target_, record_.warnings);
-        cut_folded_quads(target, record_.warnings);
-        target.mesh.positions *= target.unit / input_.unit;
-        return solver.solve_onto(MeshTarget(target.mesh), places);
+        for (const DeformGoal goal : {DeformGoal::dilatation, DeformGoal::largest, DeformGoal::spread})
+            if (goal_ == to_string(goal)) options.goal = goal;
+        DeformSolver solver(surface, handles.vertices, options);
+        if (target_.empty()) return solver.solve(handles.places);
+        if (names_surface(target_)) {
+            if (input_.unit != 1)
+                throw Error(Cause::bad_option, "MESH is too large or small for --onto " + target_,
+                            "scale it to the surface's size");
+            return solver.solve_onto(*named_surface(target_), handles.places);
+        }
+        return solver.solve_onto(MeshTarget(target_in_space(target_, input_.unit, record_.warnings)), handles.places);
     }
 
     void conclude(const Surface& surface, std::size_t handles, const Deformation& result, double start) {
@@ -112,14 +109,23 @@ class Deform final : public Command {
                                         {Things::edges, std::move(ends)}});
         }
         record_.map = map_record(result.distortion);
-        SolveRecord solve;
-        solve.iterations = result.steps;
-        solve.factorizations = result.factorizations;
-        solve.termination = to_string(Termination::converged);
-        solve.seconds_total = seconds() - start;
-        record_.solve = solve;
-        record_.deform = {to_string(result.kind), static_cast<int>(handles), result.of_surface.mean,
-                          result.of_surface.max,  result.area_ratio,         result.folds};
+        record_.solve.emplace();
+        if (result.extremal) {
+            take_bounds(map_record(*result.extremal));
+            record_.solve = solve_record(*result.extremal, 0);
+        } else {
+            record_.solve->iterations = result.steps;
+            record_.solve->termination = to_string(Termination::converged);
+        }
+        record_.solve->factorizations = result.factorizations;
+        record_.solve->seconds_total = seconds() - start;
+        record_.deform = {to_string(result.kind),
+                          to_string(result.goal),
+                          static_cast<int>(handles),
+                          result.of_surface.mean,
+                          result.of_surface.max,
+                          result.area_ratio,
+                          result.folds};
         Mesh image = surface.mesh;
         image.positions = result.positions;
         write_with_texture(output_, image, input_.unit, result.distortion, input_.attributes);
@@ -128,7 +134,17 @@ class Deform final : public Command {
         finish(record_, common_, "deformed", {output_, common_.json, common_.report});
     }
 
-    std::string source_, pins_, output_, target_, surface_ = "automatic";
+    /// k and what bounds it, of the map in the plane; what it does is measured on the surface.
+    void take_bounds(MapRecord plane) {
+        record_.map->k = plane.k;
+        record_.map->K = plane.K;
+        record_.map->K_lower = plane.K_lower;
+        record_.map->K_lower_proved = plane.K_lower_proved;
+        record_.map->K_upper = plane.K_upper;
+        record_.map->bounds = std::move(plane.bounds);
+    }
+
+    std::string source_, pins_, output_, target_, surface_ = "automatic", goal_ = "max";
     DeformOptions wanted_;
     MeshInputOptions options_;
     MeshInput input_;

@@ -3,9 +3,12 @@
 #include <beltrami/applications/conformal_carrier.h>
 #include <beltrami/applications/fitting_grid.h>
 #include <beltrami/applications/grid_on_surface.h>
+#include <beltrami/applications/image_domain.h>
 #include <beltrami/applications/reached_corners.h>
 #include <beltrami/base/error.h>
 #include <beltrami/io/write_mesh.h>
+#include <beltrami/mesh/planar.h>
+#include <beltrami/mesh/texture_map.h>
 
 #include "command.h"
 #include "map_methods.h"
@@ -13,6 +16,7 @@
 #include "onto_options.h"
 #include "output.h"
 #include "page.h"
+#include "start_map_option.h"
 #include "words.h"
 
 namespace beltrami::cli {
@@ -42,6 +46,10 @@ class Grid final : public Command {
                         "with round holes of SURFACE's own, without a TARGET")
             ->check(CLI::IsMember({"extremal", "conformal"}))
             ->capture_default_str();
+        app->add_option("--from-map", from_map_,
+                        "instead of --map: the map that this file has of SURFACE, as vt or as positions in the plane, "
+                        "which may have any boundary and holes: the OUT of `map`")
+            ->type_name("OUT");
         target_.add_to(*app, OntoTarget::Kinds::domains);
         app->add_option("--outer", outer_, "the boundary loop that goes to the outer curve")
             ->check(CLI::NonNegativeNumber)
@@ -86,8 +94,9 @@ class Grid final : public Command {
         add_findings(source.findings, record.warnings);
         record.source = source_record(source, input.unit);
         TargetDomain domain = TargetDomain{TargetCurve::circle(0, 1), {}};
-        MethodResult result = map_ == "extremal" ? run_extremal_onto(source, input, start, domain, record)
-                                                 : run_conformal(source, start, domain, record);
+        MethodResult result = !from_map_.empty()   ? sampled(source, domain, record)
+                              : map_ == "extremal" ? run_extremal_onto(source, input, start, domain, record)
+                                                   : run_conformal(source, start, domain, record);
         const Surface& mapped = result.split ? *result.split : source;
 
         const PlaneGrid lines = fitting_grid(domain, cells_, kLines.at(lines_));
@@ -95,7 +104,7 @@ class Grid final : public Command {
         how.border = border_ == "trimmed" ? GridOptions::Border::trimmed : GridOptions::Border::stepped;
         SurfaceGrid grid = grid_on_surface(mapped, result.map, lines, how);
         record.grid = grid_record(grid, source.mesh);
-        record.grid->carried_by = map_;
+        record.grid->carried_by = carrier();
         record.grid->lines = lines_of(lines);
         record.grid->cells = cells_;
         record.grid->trimmed = border_ == "trimmed";
@@ -107,21 +116,54 @@ class Grid final : public Command {
         if (!places_.empty()) write_places(places_, grid.parents);
         if (!common_.report.empty()) show_differential(mapped, result);
         write_page(common_, mapped.mesh, std::move(result.pages), result.history, record, source_);
-        finish(record, common_, map_, {output_, places_, common_.json, common_.report});
+        finish(record, common_, carrier(), {output_, places_, common_.json, common_.report});
         return 0;
     }
 
     std::string hint(const Error& error) const override { return options_.hint(error, source_); }
 
   private:
+    std::string carrier() const { return from_map_.empty() ? map_ : "file"; }
+
+    /// The map of a file, whose boundary is that of the domain.
+    MethodResult sampled(const Surface& source, TargetDomain& domain, Record& record) const {
+        const Mesh image = load_of_same_faces("--from-map", from_map_, source.mesh, record.warnings);
+        MethodResult done;
+        if (image.texture) {
+            done.map = texture_map(image);
+        } else if (is_planar(image)) {
+            done.map.resize(image.vertex_count());
+            for (int v = 0; v < image.vertex_count(); ++v) done.map[v] = {image.positions(v, 0), image.positions(v, 1)};
+        } else {
+            throw Error(Cause::bad_mesh, "--from-map " + from_map_ + " has no vt, and does not lie in the plane",
+                        "give what `map` has written");
+        }
+        done.distortion = distortion(source.operators, done.map);
+        if (2 * done.distortion.flipped.size() > static_cast<std::size_t>(source.mesh.face_count())) {
+            done.map = done.map.conjugate().eval();  // a map seen from below
+            done.distortion = distortion(source.operators, done.map);
+        }
+        record.map = map_record(done.distortion);
+        domain = image_domain(source, done.map);
+        done.pages.push_back({"file", positions_of(done.map), done.distortion.face_abs_mu});
+        return done;
+    }
+
     void check() const {
         require_mesh_format(output_);
         std::vector<NamedFile> inputs = target_.inputs();
         inputs.push_back({"SURFACE", source_});
+        inputs.push_back({"--from-map", from_map_});
         common_.check_files(inputs, {{"-o", output_}, {"--places", places_}});
+        if (!from_map_.empty()) {
+            if (target_.given() || map_ != "extremal")
+                throw Error(Cause::bad_option, "--from-map gives the map, which --onto and --map conformal would make",
+                            "leave out one or the other");
+            return;
+        }
         if (map_ == "extremal" && !target_.given())
             throw Error(Cause::bad_option, "the extremal map needs a parameter domain",
-                        "give one with --onto, or --map conformal");
+                        "give one with --onto, or --map conformal, or a map with --from-map");
         if (map_ == "extremal") return;
         if (target_.given())
             throw Error(Cause::bad_option,
@@ -188,7 +230,8 @@ class Grid final : public Command {
                    {grid.mesh, fit_.fitted(positions_of(grid.parameter)), std::move(columns), std::move(shades)});
     }
 
-    std::string source_, output_, map_ = "extremal", lines_ = "auto", pattern_ = "grid", border_ = "stepped", places_;
+    std::string source_, output_, map_ = "extremal", lines_ = "auto", pattern_ = "grid", border_ = "stepped", places_,
+                                  from_map_;
     int cells_ = 40, outer_ = 0;
     OntoTarget target_;
     MeshInputOptions options_;

@@ -108,6 +108,7 @@ int main(int argc, char** argv) {
                     "  beltrami register a.obj b.obj --landmarks pairs.txt -o carried.obj   # closed, genus 0\n"
                     "  beltrami remesh scan.obj -o even.obj   # better shapes, the same connectivity\n"
                     "  beltrami deform part.obj --pin handles.txt -o bent.obj\n"
+                    "  beltrami image out.obj photo.png -o bent.png   # a picture deformed by a map\n"
                     "  beltrami batch jobs.jsonl -o results   # many commands, resumable\n\n") +
         cli::kExitCodes);
     std::vector<std::pair<CLI::App*, std::unique_ptr<cli::Command>>> commands;
@@ -129,6 +130,7 @@ int main(int argc, char** argv) {
     add(cli::make_batch);
     add(cli::make_remesh);
     add(cli::make_deform);
+    add(cli::make_image);
 
     if (argc == 3 && std::string(argv[1]) == "--write") {  // for the build, which installs it
         const std::string what = argv[2];

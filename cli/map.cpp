@@ -93,12 +93,11 @@ class Map final : public Command {
         check();
         Record& record = record_;
         record.command = "map";
-        input_ = options_.load(source_, record.warnings);
         if (method_ == SpaceMethod::kName) {
-            cut_folded_quads(input_, record.warnings);
-            space_.run(input_, source_, output_.path(), common_, record);
+            space_.run(options_, source_, output_.path(), common_, record);
             return 0;
         }
+        input_ = options_.load(source_, record.warnings);
         boundary_.load(input_);
         homotopy_.load();
         metric_.load(input_);

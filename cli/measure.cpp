@@ -2,12 +2,14 @@
 
 #include <beltrami/base/error.h>
 #include <beltrami/certificate/proved_bounds.h>
+#include <beltrami/io/read_polygons.h>
 #include <beltrami/mesh/diagnosis.h>
 #include <beltrami/mesh/planar.h>
 #include <beltrami/mesh/texture_map.h>
 #include <beltrami/mesh/topology.h>
 #include <beltrami/operators/distortion.h>
 #include <beltrami/space/corner_elements.h>
+#include <beltrami/space/polygon_surface.h>
 
 #include "command.h"
 #include "mesh_input.h"
@@ -36,7 +38,7 @@ bool is_topological(Defect defect) {
 /// The record of a mesh whose faces all have a shape; of a mesh without topology, with warnings instead of it.
 /// @throw Error bad_mesh
 SourceRecord examine(const Mesh& mesh, Warnings& warnings) {
-    const std::vector<Finding> findings = diagnose(mesh);
+    const std::vector<Finding> findings = diagnose(has_polygons(mesh) ? split_large_faces(mesh).mesh : mesh);
     bool sound = true;
     for (const Finding& finding : findings) {
         if (!finding.fatal) continue;
@@ -74,7 +76,8 @@ class Measure final : public Command {
                         "leave out IMAGE and --certify, or --reference");
         Record& record = record_;
         record.command = "measure";
-        input_ = options_.load(source_, record.warnings);
+        const bool polygons = reference_.given() || (!image_.empty() && !certify_);
+        input_ = polygons ? options_.load_polygons(source_, record.warnings) : options_.load(source_, record.warnings);
         const Mesh& source = input_.mesh;
         record.source = examine(source, record.warnings);
         const Distortion d = reference_.given() ? against_reference(source)
@@ -197,7 +200,7 @@ class Measure final : public Command {
     }
 
     Distortion to_mesh(const Mesh& source, Warnings& warnings) {
-        const LoadedMesh read = read_mesh(image_);
+        const LoadedMesh read = certify_ ? read_mesh(image_) : read_polygons(image_);
         const FaceList& faces = input_.file_faces ? *input_.file_faces : source.faces;
         append(warnings, read.warnings);
         if (read.mesh.vertex_count() != static_cast<int>(input_.numbers.size()) || read.mesh.faces != faces)
@@ -217,7 +220,16 @@ class Measure final : public Command {
             map_ = per_vertex(source, corner_positions(image));
         }
         image_positions_ = is_planar(image) ? Positions(image.positions.leftCols(2)) : image.positions;
-        return distortion_to(source, image);
+        return has_polygons(source) ? of_polygons(source, image) : distortion_to(source, image);
+    }
+
+    /// As distortion_to() by the polygons' corner triangles.
+    static Distortion of_polygons(const Mesh& source, const Mesh& image) {
+        const Operators operators = corner_elements(source).operators;
+        if (!is_planar(image)) return distortion(operators, image.positions, vertex_normals(image));
+        Positions seen = image.positions.leftCols(2);
+        if (is_planar(source) && seen_from_below(source)) seen.col(1) *= -1;
+        return distortion(operators, seen);
     }
 
     static double extent_of(const Positions& points) {

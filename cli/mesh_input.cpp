@@ -7,10 +7,12 @@
 #include <numeric>
 
 #include <beltrami/base/error.h>
+#include <beltrami/io/read_polygons.h>
 #include <beltrami/mesh/diagnosis.h>
 #include <beltrami/mesh/repair.h>
 #include <beltrami/mesh/submesh.h>
 #include <beltrami/meshing/face_split.h>
+#include <beltrami/space/polygon_surface.h>
 
 #include "words.h"
 
@@ -63,18 +65,28 @@ void require_indices(const Mesh& mesh) {
         if (v < 0 || v >= mesh.vertex_count()) require_sound(mesh);
 }
 
-}  // namespace
-
-void cut_folded_quads(MeshInput& input, Warnings& warnings) {
-    SplitMesh split = split_unusable_faces(input.mesh);
+/// The mesh of which some faces were cut, with a warning.
+void take(SplitMesh split, const char* one, const char* many, MeshInput& input, Warnings& warnings) {
     if (split.cut.empty()) return;
     warnings.push_back({WarningKind::mended,
-                        counted(split.cut.size(), "quad that folds was", "quads that fold were") +
-                            " cut into triangles; the first is face " + std::to_string(split.cut[0]),
+                        counted(split.cut.size(), one, many) + " cut into triangles; the first is face " +
+                            std::to_string(split.cut[0]),
                         {Things::faces, split.cut}});
     std::vector<int> same(static_cast<std::size_t>(input.mesh.vertex_count()));
     std::iota(same.begin(), same.end(), 0);
     replace(input, std::move(split.mesh), same, split.faces, same);
+}
+
+}  // namespace
+
+void cut_folded_quads(MeshInput& input, Warnings& warnings) {
+    take(split_unusable_faces(input.mesh), "quad that folds was", "quads that fold were", input, warnings);
+}
+
+void cut_folded_polygons(MeshInput& input, Warnings& warnings) {
+    require_indices(input.mesh);
+    take(split_folded_polygons(input.mesh), "face that is not convex was", "faces that are not convex were", input,
+         warnings);
 }
 
 double unit_of(double size) {
@@ -108,6 +120,12 @@ void MeshInputOptions::add_to(CLI::App& app) {
 
 MeshInput MeshInputOptions::load(const std::string& path, Warnings& warnings) const {
     LoadedMesh loaded = read_mesh(path);
+    append(warnings, loaded.warnings);
+    return mend(std::move(loaded), warnings);
+}
+
+MeshInput MeshInputOptions::load_polygons(const std::string& path, Warnings& warnings) const {
+    LoadedMesh loaded = read_polygons(path);
     append(warnings, loaded.warnings);
     return mend(std::move(loaded), warnings);
 }

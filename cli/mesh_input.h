@@ -33,6 +33,9 @@ struct MeshInput {
 /// Cuts the faces that no map can be measured on as they are, quads that fold, into triangles, with a warning.
 void cut_folded_quads(MeshInput& input, Warnings& warnings);
 
+/// The same of polygons that are not convex at a corner, where polygons are kept.
+void cut_folded_polygons(MeshInput& input, Warnings& warnings);
+
 /// --weld, --orient, --keep-largest, --drop-unreferenced: what is to be mended of a mesh before anything else.
 class MeshInputOptions {
   public:
@@ -40,6 +43,8 @@ class MeshInputOptions {
     /// Reads a mesh and mends it, in the order above; what was done is said in a warning.
     /// @throw Error unreadable, bad_mesh
     MeshInput load(const std::string& path, Warnings& warnings) const;
+    /// The same with faces of more than four corners as they are.
+    MeshInput load_polygons(const std::string& path, Warnings& warnings) const;
     /// The same of a mesh that has been read.
     MeshInput mend(LoadedMesh loaded, Warnings& warnings) const;
     /// Which of these options would help a mesh that cannot be mapped; empty if none would.

@@ -13,6 +13,12 @@
 
 namespace beltrami::cli {
 
+namespace {
+
+constexpr int kMostCorners = 1000;  // of a face with angles in a file
+
+}  // namespace
+
 CLI::Option* ReferenceOption::add_to(CLI::App& app) {
     return app
         .add_option_function<std::string>(
@@ -47,7 +53,7 @@ Positions ReferenceOption::shapes(const MeshInput& input) const {
 Positions ReferenceOption::from_file(const MeshInput& input) const {
     const Mesh& mesh = input.mesh;
     Eigen::VectorXd angles = Eigen::VectorXd::Constant(mesh.faces.corner_count(), -1);
-    for (const NumberRow& row : read_number_rows(reference_, 4, 5, "a face and its angles")) {
+    for (const NumberRow& row : read_number_rows(reference_, 4, kMostCorners + 1, "a face and its angles")) {
         const std::vector<double>& n = row.numbers;
         const auto at = std::find_if(input.faces.begin(), input.faces.end(),
                                      [&](int face) { return static_cast<double>(face) == n[0]; });

@@ -11,6 +11,7 @@
 #include <beltrami/remeshing/feature_curves.h>
 #include <beltrami/remeshing/remesh.h>
 #include <beltrami/space/corner_elements.h>
+#include <beltrami/space/polygon_surface.h>
 #include <beltrami/space/uniform_map.h>
 
 #include "command.h"
@@ -19,6 +20,7 @@
 #include "page.h"
 #include "place_file.h"
 #include "reference_option.h"
+#include "space_input.h"
 #include "words.h"
 
 namespace beltrami::cli {
@@ -32,7 +34,8 @@ class Remesh final : public Command {
     explicit Remesh(CLI::App& parent) {
         CLI::App* app = parent.add_subcommand(
             "remesh", "better shapes of a mesh's faces: its vertices move along it, its connectivity stays");
-        app->add_option("MESH", source_, "OBJ, PLY, OFF or STL; of any topology, triangles and quads")->required();
+        app->add_option("MESH", source_, "OBJ, PLY, OFF or STL; of any topology, faces of any number of corners")
+            ->required();
         app->add_option("-o,--output", output_,
                         "the mesh with its vertices moved; its texture and the values of its vertices are carried "
                         "along, in PLY with per face mu_re, mu_im, abs_mu, K against the reference")
@@ -86,11 +89,7 @@ class Remesh final : public Command {
     int run() override {
         check();
         record_.command = "remesh";
-        input_ = options_.load(source_, record_.warnings);
-        cut_folded_quads(input_, record_.warnings);
-        const Surface surface(input_.mesh);
-        add_findings(surface.findings, record_.warnings);
-        record_.source = source_record(surface, input_.unit);
+        const Surface surface = surface_in_space(options_, source_, input_, record_);
         const Positions shapes = reference_.shapes(input_);
         const double start = seconds();
         const RemeshedSurface result =
@@ -177,7 +176,8 @@ class Remesh final : public Command {
 
     /// k of the extremal map between the shapes of the reference and the surface, where theory gives it: tori.
     static std::optional<double> least_of_tori(const Surface& surface, const Positions& shapes) {
-        if (surface.topology.genus != 1 || !surface.topology.boundary_loops.empty() || surface.topology.components != 1)
+        if (surface.topology.genus != 1 || !surface.topology.boundary_loops.empty() ||
+            surface.topology.components != 1 || has_polygons(surface.mesh))
             return {};
         try {
             const FlatTorus own = flat_torus(surface);

@@ -4,11 +4,11 @@
 
 #include <beltrami/base/error.h>
 #include <beltrami/io/coefficient_file.h>
-#include <beltrami/io/number_lists.h>
 #include <beltrami/space/uniform_map.h>
 
 #include "output.h"
 #include "page.h"
+#include "space_input.h"
 #include "words.h"
 
 namespace beltrami::cli {
@@ -52,26 +52,23 @@ Eigen::VectorXcd SpaceMethod::coefficient(const Operators& operators) const {
     return face_values_at_samples(operators, faces);
 }
 
-void SpaceMethod::run(const MeshInput& input, const std::string& source, const std::string& output,
+void SpaceMethod::run(const MeshInputOptions& options, const std::string& source, const std::string& output,
                       const CommonOptions& common, Record& record) const {
     if (uniform_ && !mu_.empty())
         throw Error(Cause::bad_option, "--uniform finds a coefficient, --mu gives one", "leave one of them out");
     const double start = seconds();
-    const Surface surface(input.mesh);
-    add_findings(surface.findings, record.warnings);
-    record.source = source_record(surface, input.unit);
+    MeshInput input;
+    const Surface surface = surface_in_space(options, source, input, record);
     const Mesh& mesh = surface.mesh;
     const CornerElements elements =
         reference_.given() ? corner_elements(mesh, reference_.shapes(input)) : corner_elements(mesh);
     Positions places = Positions::Zero(mesh.vertex_count(), 3);
     std::vector<char> fixed(static_cast<std::size_t>(mesh.vertex_count()), 0);
     if (!places_.empty()) {
-        const IndexedRows rows =
-            read_indexed_rows(places_, 1, static_cast<int>(input.numbers.size()), 3, "a place: vertex x y z");
-        for (Eigen::Index i = 0; i < rows.indices.rows(); ++i) {
-            const int v = input.number_of(rows.indices(i, 0), "a vertex with a place");
-            fixed[v] = 1;
-            places.row(v) = rows.values.row(i) / input.unit;
+        const PlacesInSpace given = places_in_space(places_, input, "a place");
+        for (std::size_t i = 0; i < given.vertices.size(); ++i) {
+            fixed[given.vertices[i]] = 1;
+            places.row(given.vertices[i]) = given.places.row(static_cast<Eigen::Index>(i));
         }
     }
     LeastSquaresMap problem(mesh, elements, std::move(places), std::move(fixed),

@@ -23,8 +23,8 @@ class SpaceMethod {
     std::string stray() const;
     std::vector<NamedFile> inputs() const;
     /// The map, written to a file; the record and the page with it.
-    void run(const MeshInput& input, const std::string& source, const std::string& output, const CommonOptions& common,
-             Record& record) const;
+    void run(const MeshInputOptions& options, const std::string& source, const std::string& output,
+             const CommonOptions& common, Record& record) const;
 
   private:
     Eigen::VectorXcd coefficient(const Operators& operators) const;

@@ -4,8 +4,10 @@
 
 #include <beltrami/applications/conformal_carrier.h>
 #include <beltrami/applications/deform.h>
+#include <beltrami/applications/deformed_picture.h>
 #include <beltrami/applications/fitting_grid.h>
 #include <beltrami/applications/grid_on_surface.h>
+#include <beltrami/applications/image_domain.h>
 #include <beltrami/applications/reached_corners.h>
 #include <beltrami/base/effort.h>
 #include <beltrami/base/error.h>

@@ -5,7 +5,7 @@ import unittest
 
 import numpy as np
 
-from support import Command, read_obj, write_obj
+from support import Command, bump, read_obj, write_obj
 from test_tori import torus
 
 
@@ -50,6 +50,40 @@ class Deform(Command):
         onto = self.deform("--onto", self.path("onto.obj"))
         self.assertEqual(onto["deform"]["surface"], "given")
         self.assertEqual(onto["map"]["flipped"], 0)
+
+    def test_what_is_made_small(self):
+        points, faces = bump(10)
+        write_obj(self.path("a.obj"), points, faces)
+        border = range(len(points) - 60, len(points))
+        # The rim becomes an ellipse with a wave, in its plane and in space.
+        angle = np.arctan2(points[:, 1], points[:, 0])
+        for height, onto in ((0, ("--onto", "plane")), (0.3, ())):
+            wave = 1 + 0.15 * np.cos(3 * angle)
+            image = np.column_stack([1.5 * wave * np.cos(angle), wave * np.sin(angle), height * np.sin(2 * angle)])
+            pathlib.Path(self.path("pins.txt")).write_text(
+                "".join(f"{v} {x!r} {y!r} {z!r}\n" for v, (x, y, z) in ((v, image[v].tolist()) for v in border)))
+            found = {goal: self.deform("--minimize", goal, *onto) for goal in ("K", "max", "spread")}
+            for goal, record in found.items():
+                self.assertEqual(record["deform"]["minimized"], goal)
+                self.assertEqual(record["map"]["flipped"], 0)
+            k = found["K"]["map"]
+            self.assertLessEqual(k["K_lower"], k["K"] * (1 + 1e-6))
+            self.assertAlmostEqual(k["k"], k["mu"]["mean"], delta=0.1 * k["k"])
+            self.assertLessEqual(found["max"]["map"]["mu"]["max"], k["mu"]["max"] * (1 + 1e-9))
+            self.assertLessEqual(found["spread"]["map"]["mu"]["std"], found["max"]["map"]["mu"]["std"] * (1 + 1e-9))
+            out, _, _ = read_obj(self.path("out.obj"))
+            np.testing.assert_allclose(out[border], image[border], atol=1e-9)
+            if onto:
+                self.assertEqual(np.abs(out[:, 2]).max(), 0)
+        self.assertIn("--surface", self.run_command(
+            "deform", self.path("a.obj"), "--pin", self.path("pins.txt"), "-o", self.path("b.obj"), "--onto", "plane",
+            "--surface", "rigid", code=2).stderr)
+
+    def test_handles_of_a_torus_have_no_extremal_map(self):
+        self.pins(0.5, 0.2)
+        record = self.deform("--minimize", "K")
+        self.assertEqual(record["deform"]["minimized"], "max")
+        self.assertTrue(any("genus 1" in warning for warning in record["warnings"]))
 
     def test_bad_handles_are_refused(self):
         path = pathlib.Path(self.path("pins.txt"))

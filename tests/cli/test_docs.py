@@ -14,7 +14,7 @@ from support import BELTRAMI, SCHEMA
 
 ROOT = pathlib.Path(__file__).parents[2]
 PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md")])
-COMMANDS = ("info", "measure", "map", "flatten", "uniformize", "flow", "grid", "distance", "apply", "register", "transfer", "remesh", "deform", "batch")
+COMMANDS = ("info", "measure", "map", "flatten", "uniformize", "flow", "grid", "distance", "apply", "register", "transfer", "remesh", "deform", "image", "batch")
 # Options of other programs in lines that do not call the command.
 FOREIGN = {"--install", "--prefix", "--help", "--version", "--no-build-isolation"}
 # Of Slurm, Dask and the cohorts in Python.

@@ -166,6 +166,40 @@ class Grids(Command):
         self.assertEqual(row.split()[1:5], ["64", "0", "0", "0"])
         self.assertIn("area_part", (self.folder / "g.html").read_text())
 
+    def test_the_map_of_a_file_is_sampled(self):
+        """Prescribed boundary, through a hole, without T-junctions."""
+        points, faces = disk_with_holes(16, [(np.array([0.2, 0.1]), 0.3)])
+        write_obj(self.path("a.obj"), points, faces)
+        edges = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), 1)
+        keys, count = np.unique(edges, axis=0, return_counts=True)
+        rim = np.unique(keys[count == 1])
+        image = points + 0.1 * np.sin(2 * points[:, ::-1])
+        pathlib.Path(self.path("pins.txt")).write_text("".join(f"{v} {image[v, 0]!r} {image[v, 1]!r}\n" for v in rim.tolist()))
+        self.run_command("map", self.path("a.obj"), "--pin", self.path("pins.txt"), "-o", self.path("map.obj"))
+        for border in ("stepped", "trimmed"):
+            record, v, vt, quads, _ = self.grid(self.path("a.obj"), "--from-map", self.path("map.obj"), "--cells", 30,
+                                                "--border", border, "--places", self.path("places.txt"))
+            self.assertEqual(record["grid"]["carried_by"], "file")
+            self.assertEqual(record["grid"]["folded"], [])
+            self.assert_on_surface(record, v, self.path("places.txt"), np.column_stack([points, 0 * points[:, 0]]))
+            if border == "stepped":
+                self.assertTrue(all(len(f) == 4 for f in quads))
+            # No vertex lies inside an edge of another face.
+            owners = {}
+            for f in quads:
+                for a, b in zip(f, f[1:] + f[:1]):
+                    owners[(a, b)] = owners.get((a, b), 0) + 1
+            self.assertEqual(max(owners.values()), 1)
+            open_edges = [(a, b) for a, b in owners if (b, a) not in owners]
+            for a, b in open_edges:
+                d = vt[b] - vt[a]
+                t = (vt - vt[a]) @ d / (d @ d)
+                away = np.linalg.norm(vt - vt[a] - t[:, None] * d, axis=1)
+                self.assertFalse(((t > 1e-6) & (t < 1 - 1e-6) & (away < 1e-9)).any())
+        write_obj(self.path("bent.obj"), np.column_stack([points, points[:, 0] ** 2]), faces)
+        self.assertIn("no vt", self.run_command(
+            "grid", self.path("a.obj"), "--from-map", self.path("bent.obj"), "-o", self.path("g.obj"), code=4).stderr)
+
 
 class Mistakes(Command):
     def setUp(self):

@@ -5,7 +5,7 @@ import unittest
 
 import numpy as np
 
-from support import MESHES, Command, bump, read_obj, write_obj
+from support import MESHES, Command, bump, read_faces, read_obj, write_obj
 
 
 def angles(points, faces):
@@ -100,6 +100,42 @@ class Remesh(Command):
         self.assertAlmostEqual(record["remesh"]["k_reference"], 0.2683, delta=0.002)
         self.assertGreater(record["map"]["mu"]["mean"], 0.265)
         self.assertLess(record["map"]["mu"]["mean"], 0.275)
+
+
+    def test_polygons_stay_polygons(self):
+        """A honeycomb on a bump, vertices moved: corners are kept, and every command reads them the same way."""
+        points, faces = [], []
+        numbers = {}
+        for a in range(-4, 5):
+            for b in range(-4, 5):
+                if abs(a + b) > 4:
+                    continue
+                x, y = 3 ** 0.5 * (a + 0.5 * b), 1.5 * b
+                face = []
+                for j in range(6):
+                    t = np.pi / 6 + j * np.pi / 3
+                    key = (round(x + np.cos(t), 6), round(y + np.sin(t), 6))
+                    if key not in numbers:
+                        numbers[key] = len(points)
+                        points.append(key)
+                    face.append(numbers[key])
+                faces.append(face)
+        points = np.array(points)
+        points += 0.2 * np.sin(np.arange(points.size).reshape(points.shape) * 37.0)
+        points = np.column_stack([points, 2 * np.exp(-0.03 * (points ** 2).sum(1))])
+        write_obj(self.path("a.obj"), points, faces)
+        record = self.remesh("--max-distance", "0.01")
+        self.assertFalse(any("triangles" in warning for warning in record["warnings"]))
+        out, _, kept, _ = read_faces(self.path("out.obj"))
+        self.assertEqual(kept, faces)
+        r = record["remesh"]
+        # The border's vertices are corners all, and stay.
+        self.assertLess(r["angles"]["after"]["mean_deviation"], 0.6 * r["angles"]["before"]["mean_deviation"])
+        before, after = (self.record("measure", self.path(name), "--reference", "equilateral") for name in ("a.obj", "out.obj"))
+        self.assertLess(after["map"]["mu"]["mean"], before["map"]["mu"]["mean"])
+        self.assertAlmostEqual(after["map"]["mu"]["mean"], record["map"]["mu"]["mean"], places=6)
+        self.assertEqual(self.record("measure", self.path("a.obj"), self.path("out.obj"))["map"]["flipped"], 0)
+        self.assertEqual(before["source"]["faces"], len(faces))
 
 
 if __name__ == "__main__":

@@ -1,21 +1,31 @@
 #include <beltrami/applications/deform.h>
 
 #include <algorithm>
+#include <limits>
 #include <string>
 #include <utility>
 
 #include <beltrami/applications/handled_surface.h>
+#include <beltrami/applications/held_maps.h>
 #include <beltrami/base/error.h>
+#include <beltrami/mesh/planar.h>
 #include <beltrami/remeshing/feature_curves.h>
 #include <beltrami/remeshing/mesh_comparison.h>
+#include <beltrami/space/polygon_surface.h>
 #include <beltrami/space/tangential_map.h>
 #include <beltrami/space/uniform_map.h>
+#include <beltrami/unfold/fold_free.h>
 
 namespace beltrami {
 
 namespace {
 
 constexpr double kDamping = 0.01;
+constexpr int kUniformSteps = 40;
+
+std::string counted_faces(std::size_t count) {
+    return std::to_string(count) + (count == 1 ? " face folds" : " faces fold");
+}
 
 Mesh with_positions(const Mesh& mesh, Positions positions) {
     Mesh result;
@@ -52,6 +62,18 @@ const char* to_string(DeformedSurface surface) {
     return "";
 }
 
+const char* to_string(DeformGoal goal) {
+    switch (goal) {
+        case DeformGoal::dilatation:
+            return "K";
+        case DeformGoal::largest:
+            return "max";
+        case DeformGoal::spread:
+            return "spread";
+    }
+    return "";
+}
+
 void DeformOptions::validate() const {
     if (!(last_power >= 2 && last_power <= 64)) throw Error(Cause::bad_option, "the power is not between 2 and 64");
     if (steps_of_power < 0) throw Error(Cause::bad_option, "the number of steps is negative");
@@ -64,6 +86,7 @@ struct DeformSolver::Parts {
     DeformOptions options;
     CornerElements elements;
     HandledSurface surfaces;
+    HeldMaps maps;
     std::vector<MeshPoint> last;  // of the result before
 
     Parts(const Surface& surface, std::vector<int> vertices, DeformOptions given)
@@ -71,7 +94,8 @@ struct DeformSolver::Parts {
           handles(std::move(vertices)),
           options(std::move(given)),
           elements(corner_elements(surface.mesh)),
-          surfaces(surface, handles) {}
+          surfaces(surface, handles),
+          maps(surface, handles) {}
 
     Positions by_uniform_map(const Positions& places) const {
         Positions prescribed = Positions::Zero(source.mesh.vertex_count(), 3);
@@ -100,6 +124,8 @@ struct DeformSolver::Parts {
             Positions surface = surface_of(kind, places);
             std::vector<std::array<int, 2>> folds = fold_edges(source, surface);
             if (folds.empty()) return {std::move(surface), kind};
+            if (const Mesh flat = with_positions(source.mesh, surface); is_planar(flat))
+                if (std::optional<Mesh> open = unfolded(flat)) return {std::move(open->positions), kind};
             if (fewest.empty() || folds.size() < fewest.size()) fewest = std::move(folds);
         }
         std::vector<int> ends;
@@ -134,39 +160,136 @@ struct DeformSolver::Parts {
     void relax(TangentialMap& map, double first_power) const {
         map.set_damping(kDamping);
         map.set_progress(options.progress);
-        double power = first_power;
-        while (power <= options.last_power) {
+        std::optional<TargetMap> best;
+        double least = std::numeric_limits<double>::infinity();
+        for (double power = first_power; power <= options.last_power; power *= 2) {
             map.relax(power, options.steps_of_power, options.tolerance);
-            power *= 2;
+            if (options.goal != DeformGoal::spread) continue;
+            const double spread = mu_statistics(map.coefficients(), elements.operators.weights).standard_deviation;
+            if (spread < least) {
+                least = spread;
+                best = map.map();
+            }
         }
+        if (best) map.return_to(std::move(*best));
+    }
+
+    /// What the record tells of positions on a target.
+    Deformation measured(const Target& target, const Target::Points& points, const Mesh& begin) const {
+        Deformation result;
+        result.positions = positions_of(points);
+        result.surface = target.mesh() ? *target.mesh() : begin;
+        if (target.mesh()) result.places = beltrami::places_of(points);
+        result.distortion = distortion(elements.operators, result.positions, normals_of(points));
+        result.of_surface = distortion(elements.operators, begin.positions, normals_at(target, begin));
+        result.folds = fold_edges(source, result.positions);
+        result.area_ratio = surface_area(with_positions(source.mesh, result.positions)) / surface_area(source.mesh);
+        return result;
+    }
+
+    /// Of a target that is the mesh itself those of its vertices.
+    static Positions normals_at(const Target& target, const Mesh& begin) {
+        return normals_of(nearest_points(target, begin.positions));
+    }
+
+    /// By way of the plane: the extremal map, or the QC iteration. Nothing where there is none that does not fold; why
+    /// is among the warnings.
+    std::optional<Deformation> by_held_map(const Target& target, const Mesh& begin, Warnings& warnings) {
+        const char* const what = options.goal == DeformGoal::dilatation ? "the extremal map" : "the QC iteration";
+        std::string reason = maps.refusal();
+        if (reason.empty()) try {
+                HeldMap map = options.goal == DeformGoal::dilatation
+                                  ? maps.extremal(begin, options.progress)
+                                  : maps.uniform(begin, kUniformSteps, options.progress);
+                Deformation result = measured(target, nearest_points(target, map.positions), begin);
+                if (result.distortion.flipped.empty()) {
+                    result.goal = options.goal;
+                    result.steps = map.steps;
+                    result.factorizations = map.factorizations + surfaces.factorization_count();
+                    result.extremal = std::move(map.extremal);
+                    result.warnings = std::move(map.warnings);
+                    return result;
+                }
+                reason = "it flips " + std::to_string(result.distortion.flipped.size()) + " faces on the surface";
+            } catch (const Error& error) {
+                if (error.cause() == Cause::cancelled) throw;
+                reason = error.what();
+            }
+        warnings.push_back(
+            {WarningKind::fallback,
+             std::string(what) + " is not to be had, and the largest |mu| was made small instead: " + reason});
+        return {};
     }
 
     /// @param begin positions of the vertices on the target, without folds
-    Deformation along(const MeshTarget& target, const Mesh& begin, const TargetConstraints& held, double first_power) {
-        const Surface start(begin);
+    /// @throw Error not_solved naming faces if there are
+    Deformation by_powers(const Target& target, const Mesh& begin, const TargetConstraints& held, double first_power) {
+        const Surface start(polygon_surface(begin));
         TangentialMap map(start, elements.operators, target, held, 0);
         if (const std::vector<int> folded = map.folded(); !folded.empty()) {
             std::vector<int> faces;
             faces.reserve(folded.size());
             for (const int s : folded) faces.push_back(elements.operators.faces[s]);
             faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-            const std::string sentence = std::to_string(faces.size()) + " faces fold where the map begins";
+            const std::string sentence = counted_faces(faces.size()) + " where the map begins";
             throw Error(Cause::not_solved, sentence, "move the handles in smaller steps",
                         {Things::faces, std::move(faces)});
         }
         relax(map, first_power);
-        Deformation result;
-        result.positions = map.positions();
-        result.places = beltrami::places_of(map.points());
-        result.surface = *target.mesh();
-        const Positions normals = normals_of(map.points());
-        result.distortion = distortion(elements.operators, result.positions, normals);
-        result.of_surface = distortion(elements.operators, begin.positions, vertex_normals(begin));
-        result.folds = fold_edges(source, result.positions);
-        result.area_ratio = surface_area(with_positions(source.mesh, result.positions)) / surface_area(source.mesh);
+        Deformation result = measured(target, map.points(), begin);
+        result.goal = options.goal == DeformGoal::spread ? DeformGoal::spread : DeformGoal::largest;
         result.steps = map.steps();
         result.factorizations = map.factorization_count() + surfaces.factorization_count();
         return result;
+    }
+
+    /// Both where |μ| is to spread little, else the one that is asked for, or the other where there is none.
+    Deformation along(const Target& target, const Mesh& begin, const TargetConstraints& held, double first_power) {
+        if (options.goal == DeformGoal::largest) return by_powers(target, begin, held, first_power);
+        Warnings warnings;
+        std::optional<Deformation> direct = by_held_map(target, begin, warnings);
+        if (direct && options.goal == DeformGoal::dilatation) return std::move(*direct);
+        try {
+            Deformation result = by_powers(target, begin, held, first_power);
+            if (options.goal == DeformGoal::dilatation) append(result.warnings, warnings);
+            if (!direct || result.distortion.standard_deviation < direct->distortion.standard_deviation) return result;
+        } catch (const Error& error) {
+            if (error.cause() != Cause::not_solved || !direct) throw;
+        }
+        return std::move(*direct);
+    }
+
+    /// The same in a plane without folds; nothing if that cannot be had.
+    std::optional<Mesh> unfolded(const Mesh& begin) const {
+        std::vector<Freedom> freedoms(static_cast<std::size_t>(begin.vertex_count()), Freedom::free);
+        for (const int v : handles) freedoms[v] = Freedom::fixed;
+        for (const auto& loop : source.topology.boundary_loops)
+            for (const int v : loop) freedoms[v] = Freedom::fixed;
+        const FoldFreeMap map = fold_free_map(source, freedoms, Eigen::VectorXcd::Zero(source.operators.sample_count()),
+                                              planar_coordinates(begin));
+        if (!map.fold_free) return {};
+        Mesh result = begin;
+        const double side = seen_from_below(begin) ? -1 : 1;
+        for (int v = 0; v < begin.vertex_count(); ++v)
+            result.positions.row(v).head<2>() << map.map[v].real(), side * map.map[v].imag();
+        return result;
+    }
+
+    /// Where maps onto a target may begin: surfaces through the handles at its nearest points, what folds in a plane
+    /// unfolded. The first without folds, else the first.
+    Mesh beginning_on(const Target& target, const Positions& places) const {
+        std::optional<Mesh> first;
+        for (const DeformedSurface kind :
+             {DeformedSurface::thin_plate, DeformedSurface::rigid, DeformedSurface::uniform}) {
+            if (options.surface != DeformedSurface::automatic && options.surface != kind) continue;
+            Mesh begin = with_positions(source.mesh, positions_of(nearest_points(target, surface_of(kind, places))));
+            const Positions normals = normals_at(target, begin);
+            if (distortion(elements.operators, begin.positions, normals).flipped.empty()) return begin;
+            if (is_planar(begin))
+                if (std::optional<Mesh> open = unfolded(begin)) return std::move(*open);
+            if (!first) first = std::move(begin);
+        }
+        return std::move(*first);
     }
 };
 
@@ -187,7 +310,9 @@ Deformation DeformSolver::solve(const Positions& places) {
     const MeshTarget target(surface);
     const TargetConstraints held = p.constraints(surface);
     Deformation result;
-    if (!p.last.empty()) {
+    // By way of the plane the last map is where the next begins anyway, and the surface is the mesh itself.
+    const bool by_plane = p.options.goal != DeformGoal::largest && p.maps.refusal().empty();
+    if (!p.last.empty() && !by_plane) {
         try {  // from the last one's places, the largest power at once
             result = p.along(target, with_positions(surface, points_at(surface, p.last)), held, p.options.last_power);
             result.warm = true;
@@ -196,17 +321,19 @@ Deformation DeformSolver::solve(const Positions& places) {
             p.last.clear();
         }
     }
-    if (!result.warm) result = p.along(target, surface, held, 2);
+    if (!result.warm) {
+        result = p.along(target, surface, held, 2);
+        result.warm = by_plane && !p.last.empty();
+    }
     result.of_surface = distortion(p.elements.operators, surface.positions, vertex_normals(surface));
     result.kind = kind;
     p.last = result.places;
     return result;
 }
 
-Deformation DeformSolver::solve_onto(const MeshTarget& target, const Positions& places) {
+Deformation DeformSolver::solve_onto(const Target& target, const Positions& places) {
     Parts& p = *parts_;
-    const Positions plate = p.surfaces.thin_plate(places);
-    const Mesh begin = with_positions(p.source.mesh, positions_of(nearest_points(target, plate)));
+    const Mesh begin = p.beginning_on(target, places);
     TargetConstraints held;
     held.fixed = p.handles;
     std::vector<char> fixed(static_cast<std::size_t>(begin.vertex_count()), 0);

@@ -11,6 +11,7 @@
 #include <beltrami/operators/distortion.h>
 #include <beltrami/operators/surface.h>
 #include <beltrami/targets/mesh_target.h>
+#include <beltrami/teichmuller/extremal_map.h>
 
 namespace beltrami BELTRAMI_PUBLIC {
 
@@ -24,8 +25,21 @@ enum class DeformedSurface {
 };
 const char* to_string(DeformedSurface surface);
 
+/// What is made small of the map onto the surface.
+enum class DeformGoal {
+    /// K, by the extremal map and with bounds of it, where its differentials are known: on surfaces of genus 0 of which
+    /// the whole boundary is held. Elsewhere the largest |μ|, and a warning says why.
+    dilatation,
+    largest,  ///< |μ| of a face: the means of ψ^{p/2}, ψ = |μ|²/(1 − |μ|²), for growing p
+    /// The standard deviation of |μ|: by the QC iteration, where that has no folds and differentials would be known, or
+    /// by the powers, whichever leaves less.
+    spread,
+};
+const char* to_string(DeformGoal goal);
+
 struct DeformOptions {
     DeformedSurface surface = DeformedSurface::automatic;
+    DeformGoal goal = DeformGoal::largest;
     /// ψ^{p/2} is made small for p = 2, 4, 8 … up to this: small ones for the mean, large ones for the largest |μ|.
     double last_power = 32;
     int steps_of_power = 12;
@@ -38,9 +52,11 @@ struct DeformOptions {
 
 struct Deformation {
     Positions positions;            ///< #V×3
-    Mesh surface;                   ///< on which they are
-    std::vector<MeshPoint> places;  ///< #V: where on it
+    Mesh surface;                   ///< on which they are; where a target is no mesh, that which it began with
+    std::vector<MeshPoint> places;  ///< #V: where on it; empty where a target is no mesh
     DeformedSurface kind = DeformedSurface::thin_plate;
+    DeformGoal goal = DeformGoal::largest;  ///< that was reached
+    std::optional<ExtremalMap> extremal;    ///< of the goal dilatation: the map in the plane, its k and its bounds
     Distortion distortion;                  ///< of the map
     Distortion of_surface;                  ///< of the surface's own vertices, with which it began
     double area_ratio = 1;                  ///< of the surface to the source
@@ -69,9 +85,10 @@ class DeformSolver {
     /// @throw Error bad_boundary if every surface has folds, naming the edges of that with the fewest; bad_option,
     ///        not_solved, cancelled
     Deformation solve(const Positions& places);
-    /// Onto a given surface; handles go to its nearest points.
-    /// @throw Error not_solved naming faces where the start, the thin plate's nearest points, folds
-    Deformation solve_onto(const MeshTarget& target, const Positions& places);
+    /// Onto a given surface or plane; handles go to its nearest points, and so does, to begin with, one of the surfaces
+    /// above, the first that does not fold there. What begins folded in a plane is unfolded.
+    /// @throw Error not_solved naming faces that fold wherever it begins
+    Deformation solve_onto(const Target& target, const Positions& places);
 
   private:
     struct Parts;

@@ -9,12 +9,16 @@
 
 namespace beltrami {
 
+/// What becomes of faces with more than four corners.
+enum class LargeFaces { cut, keep };
+
 /// Gathers vertices, faces and texture coordinates one by one, as every reader meets them, and keeps their order.
 class MeshBuilder {
   public:
     /// @param name      what errors and warnings call the file
     /// @param dimension coordinates a vertex: 3 or 2
-    explicit MeshBuilder(std::string name, int dimension = 3) : name_(std::move(name)), dimension_(dimension) {}
+    explicit MeshBuilder(std::string name, int dimension = 3, LargeFaces large_faces = LargeFaces::cut)
+        : name_(std::move(name)), dimension_(dimension), large_faces_(large_faces) {}
 
     std::size_t vertex_count() const { return coordinates_.size() / static_cast<std::size_t>(dimension_); }
     std::size_t texture_point_count() const { return texture_points_.size() / 2; }
@@ -27,7 +31,8 @@ class MeshBuilder {
     void add_texture_point(double u, double v);
     /// The coefficient of the next face to be added. If one face has one, all must.
     void add_face_mu(Complex mu) { face_mu_.push_back(mu); }
-    /// Adds a face; one with more than four corners is triangulated by finish(), in its place.
+    /// Adds a face; one with more than four corners is triangulated by finish(), in its place,
+    /// unless such faces are kept.
     /// @param vertices indices of its corners, 3 at least
     /// @param texture  as many indices of texture points, -1 for none; or nothing at all
     void add_face(std::span<const int> vertices, std::span<const int> texture = {});
@@ -35,7 +40,8 @@ class MeshBuilder {
     /// @param source the text or binary source, asked with here() for the face's place in the file
     template <class Source>
     void add_face(std::span<const int> vertices, std::span<const int> texture, const Source& source) {
-        if (vertices.size() > 4) note_large(vertices.size(), large_ < most_named ? source.here() : std::string());
+        if (vertices.size() > 4 && large_faces_ == LargeFaces::cut)
+            note_large(vertices.size(), large_ < most_named ? source.here() : std::string());
         add_face(vertices, texture);
     }
     std::size_t face_count() const { return static_cast<std::size_t>(faces_.size()); }
@@ -56,6 +62,7 @@ class MeshBuilder {
 
     std::string name_;
     int dimension_;
+    LargeFaces large_faces_;
     std::vector<double> coordinates_;
     FaceList faces_;
     std::vector<double> texture_points_;

@@ -6,6 +6,7 @@
 
 #include <beltrami/io/mesh_builder.h>
 #include <beltrami/io/read_mesh.h>
+#include <beltrami/io/read_polygons.h>
 #include <beltrami/io/text_scanner.h>
 
 namespace beltrami {
@@ -14,8 +15,8 @@ namespace {
 
 class ObjParser {
   public:
-    ObjParser(std::string_view bytes, const std::string& name)
-        : scanner_(bytes, name, TextScanner::Continuation::backslash), name_(name), builder_(name) {}
+    ObjParser(std::string_view bytes, const std::string& name, LargeFaces large_faces)
+        : scanner_(bytes, name, TextScanner::Continuation::backslash), name_(name), builder_(name, 3, large_faces) {}
 
     LoadedMesh parse() {
         while (scanner_.next_line()) {
@@ -182,7 +183,11 @@ class ObjParser {
 }  // namespace
 
 LoadedMesh read_obj(std::string_view bytes, const std::string& name) {
-    return ObjParser(bytes, name).parse();
+    return read_obj(bytes, name, LargeFaces::cut);
+}
+
+LoadedMesh read_obj(std::string_view bytes, const std::string& name, LargeFaces large_faces) {
+    return ObjParser(bytes, name, large_faces).parse();
 }
 
 }  // namespace beltrami

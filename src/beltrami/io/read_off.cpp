@@ -7,6 +7,7 @@
 #include <beltrami/base/error.h>
 #include <beltrami/io/mesh_builder.h>
 #include <beltrami/io/read_mesh.h>
+#include <beltrami/io/read_polygons.h>
 #include <beltrami/io/text_scanner.h>
 
 namespace beltrami {
@@ -85,7 +86,7 @@ void read_vertex(TextScanner& scanner, bool has_texture, MeshBuilder& builder) {
     builder.add_texture_point(u, v);
 }
 
-LoadedMesh read_as(Layout layout, std::string_view bytes, const std::string& name) {
+LoadedMesh read_as(Layout layout, std::string_view bytes, const std::string& name, LargeFaces large_faces) {
     TextScanner scanner(bytes, name);
     const OffHeader header = read_header(scanner);
     if (layout == Layout::stream && !header.plain) scanner.fail("a stream of numbers has no colours");
@@ -98,7 +99,7 @@ LoadedMesh read_as(Layout layout, std::string_view bytes, const std::string& nam
         scanner.integer("the number of edges");
     }
 
-    MeshBuilder builder(name);
+    MeshBuilder builder(name, 3, large_faces);
     builder.reserve_vertices(vertex_count);
     if (header.has_texture) builder.use_texture_per_vertex();
     for (std::size_t vertex = 0; vertex < vertex_count; ++vertex) {
@@ -128,12 +129,16 @@ LoadedMesh read_as(Layout layout, std::string_view bytes, const std::string& nam
 }  // namespace
 
 LoadedMesh read_off(std::string_view bytes, const std::string& name) {
+    return read_off(bytes, name, LargeFaces::cut);
+}
+
+LoadedMesh read_off(std::string_view bytes, const std::string& name, LargeFaces large_faces) {
     try {
-        return read_as(Layout::lines, bytes, name);
+        return read_as(Layout::lines, bytes, name, large_faces);
     } catch (const Error&) {
         // Where lines mean nothing there are fewer of them than vertices and faces, and so that has failed.
         try {
-            return read_as(Layout::stream, bytes, name);
+            return read_as(Layout::stream, bytes, name, large_faces);
         } catch (const Error&) {
         }
         throw;

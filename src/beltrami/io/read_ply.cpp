@@ -15,6 +15,7 @@
 #include <beltrami/io/binary_source.h>
 #include <beltrami/io/mesh_builder.h>
 #include <beltrami/io/read_mesh.h>
+#include <beltrami/io/read_polygons.h>
 #include <beltrami/io/text_scanner.h>
 
 namespace beltrami {
@@ -369,12 +370,12 @@ void read_faces(Body& body, const Element& element, std::int64_t vertex_count, b
 }
 
 template <class Body>
-LoadedMesh read_body(Body body, const Header& header, const std::string& name) {
+LoadedMesh read_body(Body body, const Header& header, const std::string& name, LargeFaces large_faces) {
     const Element* vertices = header.find("vertex");
     if (!vertices || !vertices->find("x") || !vertices->find("y")) body.fail("the vertices have no properties x and y");
     check_count(body, *vertices);
     const int dimension = vertices->find("z") ? 3 : 2;
-    MeshBuilder builder(name, dimension);
+    MeshBuilder builder(name, dimension, large_faces);
     builder.attributes().header = header.comments;
     for (const Element& element : header.elements) {
         if (element.properties.empty()) continue;  // takes no bytes, whatever its count
@@ -394,9 +395,13 @@ LoadedMesh read_body(Body body, const Header& header, const std::string& name) {
 }  // namespace
 
 LoadedMesh read_ply(std::string_view bytes, const std::string& name) {
+    return read_ply(bytes, name, LargeFaces::cut);
+}
+
+LoadedMesh read_ply(std::string_view bytes, const std::string& name, LargeFaces large_faces) {
     TextScanner scanner(bytes, name);
     const Header header = read_header(scanner);
-    if (header.encoding == Encoding::ascii) return read_body(TextBody(scanner), header, name);
+    if (header.encoding == Encoding::ascii) return read_body(TextBody(scanner), header, name, large_faces);
 
     // Behind "end_header" the first newline belongs to the header. CR LF is one unless the first line ends with CR
     // alone: then the LF may be the first byte of the data. (Some writers end this one line so and all others with LF.)
@@ -406,7 +411,7 @@ LoadedMesh read_ply(std::string_view bytes, const std::string& name) {
     const bool crlf = rest.starts_with("\r\n") && (first_end.starts_with("\r\n") || first_end.starts_with('\n'));
     const std::size_t offset = bytes.size() - rest.size() + std::min<std::size_t>(crlf ? 2 : 1, rest.size());
     const std::endian order = header.encoding == Encoding::big_endian ? std::endian::big : std::endian::little;
-    return read_body(BinaryBody(BinarySource(bytes, offset, order, name)), header, name);
+    return read_body(BinaryBody(BinarySource(bytes, offset, order, name)), header, name, large_faces);
 }
 
 }  // namespace beltrami

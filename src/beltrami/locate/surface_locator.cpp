@@ -131,6 +131,13 @@ std::vector<std::array<int, 3>> as_triangles(const FaceList& faces, const Positi
             face_of_triangle.push_back(f);
             continue;
         }
+        if (v.size() > 4) {  // a polygon that is convex, as those of maps are: a fan
+            for (std::size_t i = 1; i + 1 < v.size(); ++i) {
+                triangles.push_back({v[0], v[i], v[i + 1]});
+                face_of_triangle.push_back(f);
+            }
+            continue;
+        }
         std::array<Eigen::Vector3d, 4> corners;
         for (int i = 0; i < 4; ++i) corners[i] = points.row(v[i]);
         for (const auto& c : split_quad(corners)) {

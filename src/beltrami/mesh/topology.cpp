@@ -32,16 +32,25 @@ namespace {
     throw Error(Cause::bad_mesh, "the mesh is not an oriented manifold", "repair it in a mesh editor");
 }
 
+bool names_a_vertex_twice(std::span<const int> corners) {
+    if (corners.size() <= 4) {
+        for (std::size_t i = 0; i < corners.size(); ++i)
+            for (std::size_t j = 0; j < i; ++j)
+                if (corners[i] == corners[j]) return true;
+        return false;
+    }
+    std::vector<int> sorted(corners.begin(), corners.end());
+    std::sort(sorted.begin(), sorted.end());
+    return std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
+}
+
 bool indices_are_usable(const Mesh& mesh) {
     for (int face = 0; face < mesh.face_count(); ++face) {
         const std::span<const int> corners = mesh.faces[face];
-        if (corners.size() < 3 || corners.size() > 4) return false;
-        for (std::size_t i = 0; i < corners.size(); ++i) {
-            if (corners[i] < 0 || corners[i] >= mesh.vertex_count()) return false;
-            for (std::size_t j = 0; j < i; ++j) {
-                if (corners[i] == corners[j]) return false;
-            }
-        }
+        if (corners.size() < 3) return false;
+        for (const int vertex : corners)
+            if (vertex < 0 || vertex >= mesh.vertex_count()) return false;
+        if (names_a_vertex_twice(corners)) return false;
     }
     return true;
 }

@@ -45,16 +45,32 @@ SplitMesh cut_faces(const Mesh& mesh, TrianglesOf&& triangles_of) {
     return result;
 }
 
+std::vector<std::array<int, 3>> triangles_of_polygon(const Mesh& mesh, int face) {
+    const auto v = mesh.faces[face];
+    Positions polygon(static_cast<Eigen::Index>(v.size()), mesh.positions.cols());
+    for (std::size_t c = 0; c < v.size(); ++c) polygon.row(static_cast<Eigen::Index>(c)) = mesh.positions.row(v[c]);
+    return split_polygon(polygon);
+}
+
+std::vector<std::array<int, 3>> triangles_of_quad(const Mesh& mesh, int face) {
+    const auto v = mesh.faces[face];
+    const auto halves = split_quad({mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3])});
+    return {halves.begin(), halves.end()};
+}
+
 }  // namespace
 
 SplitMesh split_large_faces(const Mesh& mesh) {
     return cut_faces(mesh, [&](int f) -> std::vector<std::array<int, 3>> {
-        const auto face = mesh.faces[f];
-        if (face.size() <= 4) return {};
-        Positions polygon(static_cast<Eigen::Index>(face.size()), mesh.positions.cols());
-        for (std::size_t c = 0; c < face.size(); ++c)
-            polygon.row(static_cast<Eigen::Index>(c)) = mesh.positions.row(face[c]);
-        return split_polygon(polygon);
+        if (mesh.faces.degree(f) <= 4) return {};
+        return triangles_of_polygon(mesh, f);
+    });
+}
+
+SplitMesh split_faces(const Mesh& mesh, const std::vector<int>& faces) {
+    return cut_faces(mesh, [&](int f) -> std::vector<std::array<int, 3>> {
+        if (mesh.faces.degree(f) < 4 || !std::ranges::binary_search(faces, f)) return {};
+        return mesh.faces.degree(f) == 4 ? triangles_of_quad(mesh, f) : triangles_of_polygon(mesh, f);
     });
 }
 
@@ -63,10 +79,7 @@ SplitMesh split_unusable_faces(const Mesh& mesh) {
     const std::vector<int> folded = faces_without_area(first.mesh);
     SplitMesh second = cut_faces(first.mesh, [&](int f) -> std::vector<std::array<int, 3>> {
         if (first.mesh.faces.degree(f) != 4 || !std::ranges::binary_search(folded, f)) return {};
-        const auto v = first.mesh.faces[f];
-        const auto halves = split_quad(
-            {first.mesh.point(v[0]), first.mesh.point(v[1]), first.mesh.point(v[2]), first.mesh.point(v[3])});
-        return {halves.begin(), halves.end()};
+        return triangles_of_quad(first.mesh, f);
     });
     for (int& f : second.faces) f = first.faces[f];
     for (int& f : second.cut) f = first.faces[f];

@@ -18,6 +18,11 @@ struct SplitMesh {
 /// @pre indices of the faces are in range; texture coordinates, if any, have one index per corner
 SplitMesh split_large_faces(const Mesh& mesh);
 
+/// Cuts the faces of a list: quads by split_quad(), those with more corners by split_polygon().
+/// @param faces ascending
+/// @pre as above
+SplitMesh split_faces(const Mesh& mesh, const std::vector<int>& faces);
+
 /// Cuts what the operators do not take: faces with more than four corners, and quads that fold (faces_without_area),
 /// these by split_quad().
 /// @pre as above

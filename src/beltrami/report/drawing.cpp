@@ -21,6 +21,13 @@ Drawing split_quads(const Mesh& mesh) {
             drawing.faces.push_back(face);
             continue;
         }
+        if (v.size() > 4) {
+            for (std::size_t i = 1; i + 1 < v.size(); ++i) {
+                drawing.triangles.push_back({v[0], v[i], v[i + 1]});
+                drawing.faces.push_back(face);
+            }
+            continue;
+        }
         for (const auto& [a, b, c] :
              split_quad({mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3])})) {
             drawing.triangles.push_back({v[a], v[b], v[c]});

@@ -10,7 +10,7 @@ namespace beltrami BELTRAMI_PUBLIC {
 
 /// A grid carried to a surface.
 struct GridRecord {
-    std::string carried_by;  ///< the map: "extremal" or "conformal"
+    std::string carried_by;  ///< the map: "extremal", "conformal" or "file"
     GridLines lines = GridLines::rectangular;
     int cells = 0;  ///< wanted, as in fitting_grid
     bool trimmed = false;

@@ -444,6 +444,7 @@ std::string to_json(const Record& record) {
     if (record.remesh) json["remesh"] = to_object(*record.remesh);
     if (const auto& deform = record.deform)
         json["deform"] = {{"surface", deform->surface},
+                          {"minimized", deform->minimized},
                           {"handles", deform->handles},
                           {"surface_mu", {{"mean", number(deform->mean_before)}, {"max", number(deform->max_before)}}},
                           {"area_ratio", number(deform->area_ratio)},

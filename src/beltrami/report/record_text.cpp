@@ -241,8 +241,12 @@ std::string to_remarks(const Record& record) {
     if (record.remesh) text += lines_of(*record.remesh);
     if (const auto& deform = record.deform)
         text += fmt::format(
-            "of small dilatation for the {} surface only, on whose own vertices |mu| is {:.4f} on average and {:.4f} "
-            "at most; area times {:.3f}\n",
+            "{} for the {} surface only, on whose own vertices |mu| is {:.4f} on average and {:.4f} at most; area "
+            "times "
+            "{:.3f}\n",
+            deform->minimized == "K"     ? "extremal"
+            : deform->minimized == "max" ? "of small largest |mu|"
+                                         : "of evenly spread |mu|",
             deform->surface, deform->mean_before, deform->max_before, deform->area_ratio);
     if (record.flow) text += line_of(record.flow->error);
     if (record.surface_flow && record.surface_flow->coefficient) text += line_of(record.surface_flow->error);

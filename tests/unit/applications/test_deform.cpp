@@ -9,6 +9,8 @@
 #include <beltrami/generate/grids.h>
 #include <beltrami/generate/sphere.h>
 #include <beltrami/mesh/submesh.h>
+#include <beltrami/targets/parametric_target.h>
+#include <beltrami/targets/simple_targets.h>
 
 #include "support/cause_of.h"
 #include "support/meshes.h"
@@ -133,6 +135,139 @@ TEST(Deform, OntoAGivenSurface) {
     EXPECT_TRUE(result.distortion.flipped.empty());
     EXPECT_LT((positions_of(nearest_points(target, result.positions)) - result.positions).cwiseAbs().maxCoeff(), 1e-12);
     EXPECT_LT(result.distortion.max, 0.3);
+}
+
+/// A cylinder of radius 1 and height 2, its upper rim lowered by so much at one side.
+struct Cylinder {
+    Mesh mesh;
+    Handles handles;
+
+    Cylinder(int around, int layers, double lowered) {
+        const int rows = layers + 1;
+        mesh.positions.resize(around * rows, 3);
+        handles.places.resize(2 * around, 3);
+        for (int j = 0; j < rows; ++j)
+            for (int i = 0; i < around; ++i) {
+                const double t = 2 * kPi * i / around;
+                mesh.positions.row(j * around + i) << std::cos(t), std::sin(t), 2.0 * j / layers;
+                if (j < layers) {
+                    const int a = j * around + i, b = j * around + (i + 1) % around;
+                    mesh.faces.add({a, b, b + around});
+                    mesh.faces.add({a, b + around, a + around});
+                }
+            }
+        for (int i = 0; i < around; ++i) {
+            handles.vertices.push_back(i);
+            handles.places.row(i) = mesh.positions.row(i);
+        }
+        for (int i = 0; i < around; ++i) {
+            const double t = 2 * kPi * i / around;
+            handles.vertices.push_back(layers * around + i);
+            handles.places.row(around + i) << std::cos(t), std::sin(t), 2 - lowered * (1 - std::cos(t));
+        }
+    }
+};
+
+// Unrolled this is a strip with the symmetry of the data: k* lies between .56 and .57 (K* between 3.61 and 3.64).
+TEST(Deform, TheExtremalMapOntoACylinderHasItsBracket) {
+    const Cylinder cylinder(48, 16, 0.8);
+    const Surface surface(cylinder.mesh);
+    const ParametricTarget target = cylinder_target(1, 2);
+    DeformOptions options;
+    options.goal = DeformGoal::dilatation;
+    DeformSolver solver(surface, cylinder.handles.vertices, options);
+    const Deformation result = solver.solve_onto(target, cylinder.handles.places);
+    ASSERT_TRUE(result.extremal);
+    EXPECT_EQ(result.goal, DeformGoal::dilatation);
+    EXPECT_TRUE(result.distortion.flipped.empty());
+    EXPECT_NEAR(result.extremal->k, 0.568, 0.01);
+    EXPECT_LE(result.extremal->K_lower, 3.66);
+    EXPECT_GE(result.extremal->K_lower, 3.55);
+    EXPECT_NEAR(result.distortion.mean, 0.56, 0.015);
+    EXPECT_LT(result.distortion.standard_deviation, 0.04);
+    for (int v = 0; v < surface.mesh.vertex_count(); ++v)
+        EXPECT_NEAR(result.positions.row(v).head<2>().norm(), 1, 1e-9);
+    for (std::size_t i = 0; i < cylinder.handles.vertices.size(); ++i)
+        EXPECT_LT((result.positions.row(cylinder.handles.vertices[i]) -
+                   cylinder.handles.places.row(static_cast<Eigen::Index>(i)))
+                      .norm(),
+                  1e-9);
+
+    // The largest |μ| is what the powers make small, its spread the other two.
+    options.goal = DeformGoal::largest;
+    const Deformation largest =
+        DeformSolver(surface, cylinder.handles.vertices, options).solve_onto(target, cylinder.handles.places);
+    EXPECT_FALSE(largest.extremal);
+    EXPECT_LT(largest.distortion.max, result.distortion.max);
+    options.goal = DeformGoal::spread;
+    const Deformation even =
+        DeformSolver(surface, cylinder.handles.vertices, options).solve_onto(target, cylinder.handles.places);
+    EXPECT_EQ(even.goal, DeformGoal::spread);
+    EXPECT_TRUE(even.distortion.flipped.empty());
+    EXPECT_LT(even.distortion.standard_deviation, largest.distortion.standard_deviation);
+}
+
+// In the plane: an affine map has one μ, which is extremal for its own boundary values.
+TEST(Deform, AffineMapsOfThePlaneAreExtremal) {
+    Mesh mesh = test::jittered_square(10);
+    mesh.positions.conservativeResize(Eigen::NoChange, 3);
+    mesh.positions.col(2).setZero();
+    const Surface surface(mesh);
+    Handles handles{surface.topology.boundary_loops[0], {}};
+    handles.places.resize(static_cast<Eigen::Index>(handles.vertices.size()), 3);
+    const auto image = [&](int v) {
+        const Eigen::Vector3d p = mesh.point(v);
+        return Eigen::RowVector3d(2 * p.x() + 0.3 * p.y(), p.y(), 0);
+    };
+    for (std::size_t i = 0; i < handles.vertices.size(); ++i)
+        handles.places.row(static_cast<Eigen::Index>(i)) = image(handles.vertices[i]);
+    for (const DeformGoal goal : {DeformGoal::dilatation, DeformGoal::spread}) {
+        DeformOptions options;
+        options.goal = goal;
+        const Deformation result =
+            DeformSolver(surface, handles.vertices, options).solve_onto(PlaneTarget(), handles.places);
+        EXPECT_EQ(result.goal, goal);
+        for (int v = 0; v < mesh.vertex_count(); ++v)
+            EXPECT_LT((result.positions.row(v) - image(v)).norm(), 1e-6) << to_string(goal);
+        EXPECT_LT(result.distortion.standard_deviation, 1e-6);
+    }
+}
+
+// A corner pushed far in folds the thin plate and the harmonic map; all three goals have maps without folds.
+TEST(Deform, WhatFoldsInThePlaneIsUnfolded) {
+    Mesh mesh = test::jittered_square(16);
+    mesh.positions.conservativeResize(Eigen::NoChange, 3);
+    mesh.positions.col(2).setZero();
+    const Surface surface(mesh);
+    Handles handles{surface.topology.boundary_loops[0], {}};
+    handles.places.resize(static_cast<Eigen::Index>(handles.vertices.size()), 3);
+    for (std::size_t i = 0; i < handles.vertices.size(); ++i) {
+        const Eigen::Vector3d p = mesh.point(handles.vertices[i]);
+        // The square's two sides at (1, 1) go to an arrow head's, the point to (.4, .4).
+        Eigen::RowVector3d q = p;
+        if (p.x() > 1 - 1e-9) q.x() = 1 - 0.6 * p.y();
+        if (p.y() > 1 - 1e-9) q.y() = 1 - 0.6 * p.x();
+        handles.places.row(static_cast<Eigen::Index>(i)) = q;
+    }
+    for (const DeformGoal goal : {DeformGoal::dilatation, DeformGoal::largest, DeformGoal::spread}) {
+        DeformOptions options;
+        options.goal = goal;
+        const Deformation result =
+            DeformSolver(surface, handles.vertices, options).solve_onto(PlaneTarget(), handles.places);
+        EXPECT_TRUE(result.distortion.flipped.empty()) << to_string(goal);
+        EXPECT_LT(result.distortion.max, 1) << to_string(goal);
+    }
+}
+
+TEST(Deform, WhereNoDifferentialsAreKnownTheLargestIsMadeSmall) {
+    const Surface surface(punctured_torus(24, 12));
+    const Handles handles = turned_loop(surface, 0.5, 0.3);
+    DeformOptions options;
+    options.goal = DeformGoal::dilatation;
+    const Deformation result = DeformSolver(surface, handles.vertices, options).solve(handles.places);
+    EXPECT_EQ(result.goal, DeformGoal::largest);
+    ASSERT_FALSE(result.warnings.empty());
+    EXPECT_NE(result.warnings[0].sentence.find("genus 1"), std::string::npos);
 }
 
 TEST(Deform, RefusesWhatCannotBe) {
