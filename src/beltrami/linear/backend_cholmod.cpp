@@ -120,13 +120,16 @@ namespace {
 class SerialOpenMp {
   public:
     SerialOpenMp() {
-        if (get_ && set_) {
-            saved_ = get_();
-            set_(0);
-        }
+        if (!get_ || !set_) return;
+        const std::scoped_lock lock(mutex_);
+        if (inside_++ > 0) return;
+        saved_ = get_();
+        set_(0);
     }
     ~SerialOpenMp() {
-        if (get_ && set_) set_(saved_);
+        if (!get_ || !set_) return;
+        const std::scoped_lock lock(mutex_);
+        if (--inside_ == 0) set_(saved_);
     }
     SerialOpenMp(const SerialOpenMp&) = delete;
     SerialOpenMp& operator=(const SerialOpenMp&) = delete;
@@ -134,7 +137,9 @@ class SerialOpenMp {
   private:
     inline static const auto get_ = loaded_function<int()>("omp_get_max_active_levels");
     inline static const auto set_ = loaded_function<void(int)>("omp_set_max_active_levels");
-    int saved_ = 0;
+    // The number of levels is that of the program: the last thread to leave restores what the first has found.
+    inline static std::mutex mutex_;
+    inline static int inside_ = 0, saved_ = 0;
 };
 
 /// Supernodes are merged where they have so many columns and their union so small a part of zeros, more freely than
