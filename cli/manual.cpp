@@ -15,6 +15,7 @@ struct Entry {
     std::string value;                 ///< what stands after it; empty: a flag
     std::vector<std::string> choices;  ///< the only values, if there are few
     std::string text;
+    bool required = false, several = false;
 };
 
 std::vector<std::string> split(const std::string& text, char at) {
@@ -36,6 +37,8 @@ Entry entry_of(const CLI::Option& option) {
     for (const std::string& name : option.get_snames()) entry.names.push_back("-" + name);
     for (const std::string& name : option.get_lnames()) entry.names.push_back("--" + name);
     entry.text = option.get_description();
+    entry.required = option.get_required();
+    entry.several = option.get_items_expected_max() > 1;
     const bool flag = !entry.names.empty() && option.get_items_expected_max() == 0;
     if (flag) return entry;
     const std::string type = option.get_type_name();
@@ -141,7 +144,10 @@ std::string manual_page(const CLI::App& app, const std::string& version, const s
     for (const CLI::App* command : commands_of(app)) {
         page += fmt::format(".B beltrami {}\n[\\fIoptions\\fR]", command->get_name());
         for (const Entry& entry : entries_of(*command))
-            if (entry.names.empty()) page += " \\fI" + roff(entry.value) + "\\fR";
+            if (entry.names.empty()) {
+                const std::string name = "\\fI" + roff(entry.value) + "\\fR" + (entry.several ? " ..." : "");
+                page += entry.required ? " " + name : " [" + name + "]";
+            }
         page += "\n.br\n";
     }
     page += ".SH DESCRIPTION\n" + roff(app.get_description()) + "\n.SH OPTIONS\n";

@@ -54,7 +54,7 @@ def file_beside(source, up, name):
     page = source / "files" / (name.replace("/", "_") + ".md")
     page.parent.mkdir(exist_ok=True)
     text = "\n".join(sorted(p.name for p in path.iterdir())) if path.is_dir() else path.read_text()
-    page.write_text(f"---\norphan: true\n---\n# {name}\n\n```text\n{text}\n```\n")
+    page.write_text(f"---\norphan: true\n---\n# {name}\n\n`````text\n{text}\n`````\n")
     return f"]({up}/files/{page.name})"
 
 

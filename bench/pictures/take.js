@@ -1,5 +1,6 @@
 // Takes the pictures of docs/pictures from report pages: take.js PAGES_FOLDER PICTURE_FOLDER, with the pages face.html (of a
-// scan and the star), bunny.html (the same of the demo's scan, with a texture) and closed.html (a registration, with one).
+// scan and the star), bunny.html (the same of the demo's scan, with a texture), closed.html (a registration, with one) and
+// handles.html (one of surfaces of genus 2).
 
 import { chromium } from "@playwright/test";
 import { resolve } from "node:path";
@@ -73,4 +74,9 @@ await screen("bunny", "page_phone", { viewport: { width: 390, height: 844 }, isM
     await toFigures(page);
 });
 await screen("closed", "page_closed", {}, async page => { await tick(page, "trajectories", "ellipses"); await toFigures(page); });
+await screen("handles", "page_polygon", {}, async page => {
+    await page.selectOption("#map", { label: "fundamental polygon" });
+    await tick(page, "trajectories");
+    await toFigures(page);
+});
 await browser.close();
