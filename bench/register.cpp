@@ -3,6 +3,8 @@
 //
 //     bench_register                       four and eight landmarks at 2048, 8192 and 32 768 faces
 //     bench_register A B PAIRS [...]       seconds of maps A → B with a file of lines `source_vertex target_vertex`
+//     bench_register --noisy MESH          a surface with boundary onto its own noisy copy, six landmarks inside (also
+//                                          soft) that are off by two edges
 //
 // harmonic = operators, ordering, analysis, assembly, factorisation and solution, median of three, of the mesh less one
 // face; the maps of both surfaces to the sphere are timed apart.
@@ -19,6 +21,7 @@
 #include <beltrami/meshing/face_split.h>
 
 #include "closed_harmonic.h"
+#include "problems/noisy_copy.h"
 #include "problems/sphere_landmarks.h"
 
 namespace {
@@ -75,11 +78,33 @@ void pair(const char* a, const char* b, const char* pairs) {
     std::fflush(stdout);
 }
 
+/// Landmarks that are met, and softer and softer ones.
+void noisy(const char* path) {
+    const Surface source = surface_of_file(path);
+    fmt::print(
+        "| weight | k | inverse's k | K_lower | K | flips | largest distance, edges | s |\n"
+        "| --- | --- | --- | --- | --- | --- | --- | --- |\n");
+    for (const double weight : {std::numeric_limits<double>::infinity(), 1e4, 1e2, 1.0}) {
+        const bench::NoisyCopy copy = bench::noisy_copy(source, {.weight = weight});
+        const Surface target(copy.mesh);
+        const double begun = now();
+        const OpenRegistration found = register_open(source, target, copy.landmarks);
+        fmt::print("| {:.0e} | {:.4f} | {:.4f} | {:.4f} | {:.4f} | {} | {:.3f} | {:.2f} |\n", weight, found.map.k,
+                   found.inverse_k.value_or(0), found.map.K_lower, found.map.K, found.map.distortion.flipped.size(),
+                   found.largest_distance.value_or(0) / copy.edge, now() - begun);
+        std::fflush(stdout);
+    }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     if (argc == 1) {
         oracles();
+        return 0;
+    }
+    if (argc == 3 && std::string(argv[1]) == "--noisy") {
+        noisy(argv[2]);
         return 0;
     }
     fmt::print(

@@ -4,6 +4,7 @@
 #include <beltrami/io/atomic_file.h>
 #include <beltrami/io/write_mesh.h>
 #include <beltrami/registration/nearest_places.h>
+#include <beltrami/registration/overlay.h>
 #include <beltrami/registration/transfer.h>
 #include <beltrami/uniformize/sphere_map.h>
 
@@ -38,6 +39,10 @@ class Transfer final : public Command {
                          "numbers of every face, a line each; the other's faces get their means")
             ->type_name("FILE");
         what->add_flag("--texture", texture_, "the texture coordinates; OUT is the other mesh with them");
+        what->add_flag(
+            "--overlay", overlay_,
+            "the faces of both meshes laid over each other; OUT is the other surface, divided into triangles "
+            "that lie in one face of both (in PLY source_face, target_face), with exact texture coordinates");
         what->add_option("--points", points_,
                          "points, such as those of a polyline in their order: `face b0 b1 b2` or `x y z`, of which the "
                          "nearest point of the surface is taken; OUT has `x y z` a line")
@@ -47,6 +52,11 @@ class Transfer final : public Command {
             ->type_name("FILE");
         what->require_option(1);
         app->add_flag("--back", back_, "from TARGET to SOURCE");
+        app->add_option("--target-outer", target_outer_,
+                        "of surfaces with a boundary: the loop of TARGET that `register` was told")
+            ->check(CLI::NonNegativeNumber)
+            ->capture_default_str()
+            ->type_name("h");
         app->add_flag("--as-places", as_places_, "with --points write `face b0 b1 b2` of the other surface");
         app->add_flag("--quiet", quiet_, "print nothing but errors");
         app->footer(kExitCodes);
@@ -55,7 +65,7 @@ class Transfer final : public Command {
     int run() override {
         if (as_places_ && points_.empty())
             throw Error(Cause::bad_option, "--as-places belongs to --points", "leave it out, or give --points");
-        if (texture_ || !mesh_.empty()) require_mesh_format(output_);
+        if (texture_ || overlay_ || !mesh_.empty()) require_mesh_format(output_);
         check_files({{"SOURCE", source_},
                      {"TARGET", target_},
                      {"--places", places_},
@@ -66,13 +76,15 @@ class Transfer final : public Command {
                     {{"-o", output_}});
         const MeshInput source = load(source_), target = load(target_);
         const SurfaceCorrespondence forward = correspondence(source.mesh, target.mesh);
-        const Direction way{forward, back_};
+        const Direction way{forward, back_, source.unit, target.unit};
         if (!values_.empty())
             write_rows(way.vertex_values(read(values_, way.from().vertex_count(), "vertices")));
         else if (!face_values_.empty())
             write_rows(way.face_values(read(face_values_, way.from().face_count(), "faces")));
         else if (texture_)
             write_texture(way, back_ ? source : target);
+        else if (overlay_)
+            write_overlay(way, back_ ? source : target);
         else if (!points_.empty())
             write_points(way);
         else
@@ -90,9 +102,12 @@ class Transfer final : public Command {
     struct Direction {
         const SurfaceCorrespondence& forward;
         bool back;
+        double source_unit, target_unit;
 
         const Mesh& from() const { return back ? forward.target() : forward.source(); }
         const Mesh& to() const { return back ? forward.source() : forward.target(); }
+        double from_unit() const { return back ? target_unit : source_unit; }
+        double to_unit() const { return back ? source_unit : target_unit; }
         std::vector<MeshPoint> operator()(std::span<const MeshPoint> places) const {
             return back ? forward.back(places) : forward.forward(places);
         }
@@ -113,8 +128,9 @@ class Transfer final : public Command {
 
     SurfaceCorrespondence correspondence(const Mesh& source, const Mesh& target) const {
         const std::vector<MeshPoint> places = read_places(places_, target, source.vertex_count());
-        const SphereMap sphere = sphere_map(Surface(target));
-        return {source, target, sphere.positions, places};
+        const Surface onto(target);
+        if (onto.topology.boundary_loops.empty()) return {source, target, sphere_map(onto).positions, places};
+        return {Surface(source), onto, circle_domain_chart(onto, target_outer_), places};
     }
 
     Positions read(const std::string& path, int count, const char* of) const {
@@ -149,13 +165,30 @@ class Transfer final : public Command {
         write_mesh(output_, {whole, {}, {}, {}, to.attributes, transferred_texture(way.forward, way.transfer())});
     }
 
+    void write_overlay(const Direction& way, const MeshInput& to) const {
+        OverlayMesh both = overlay_mesh(way.forward, way.transfer());
+        both.mesh.positions *= to.unit;
+        const auto column = [](const char* name, const std::vector<int>& faces) {
+            return Column{name, Eigen::Map<const Eigen::VectorXi>(faces.data(), static_cast<Eigen::Index>(faces.size()))
+                                    .cast<double>()};
+        };
+        std::optional<TextureCoordinates> texture = std::move(both.mesh.texture);
+        both.mesh.texture.reset();
+        write_mesh(output_, {both.mesh,
+                             {},
+                             {column("source_face", both.source_faces), column("target_face", both.target_faces)},
+                             {},
+                             {},
+                             std::move(texture)});
+    }
+
     void write_points(const Direction& way) {
         const std::vector<NumberRow> rows = read_number_rows(points_, 3, 5, "a point x y z, or face and weights");
         std::vector<MeshPoint> places;
         places.reserve(rows.size());
         for (const NumberRow& row : rows)
             places.push_back(row.numbers.size() == 3
-                                 ? nearest(way.from(), Eigen::Map<const Eigen::RowVector3d>(row.numbers.data()))[0]
+                                 ? nearest(way, Eigen::Map<const Eigen::RowVector3d>(row.numbers.data()))[0]
                                  : place_of_row(points_, row, way.from()));
         std::string text;
         for (const MeshPoint& place : way(places)) {
@@ -163,7 +196,7 @@ class Transfer final : public Command {
                 text += line_of_place(way.to(), place);
                 continue;
             }
-            const Eigen::Vector3d point = point_of(way.to(), place);
+            const Eigen::Vector3d point = point_on(way, place);
             text += fmt::format("{} {} {}\n", point.x(), point.y(), point.z());
         }
         write_atomically(output_, text);
@@ -173,29 +206,30 @@ class Transfer final : public Command {
         Mesh mesh = cli::load(mesh_, record_.warnings);
         Positions points(mesh.vertex_count(), 3);
         for (int v = 0; v < mesh.vertex_count(); ++v) points.row(v) = mesh.point(v);
-        const std::vector<MeshPoint> places = way(nearest(way.from(), points));
-        for (int v = 0; v < mesh.vertex_count(); ++v) points.row(v) = point_of(way.to(), places[v]);
+        const std::vector<MeshPoint> places = way(nearest(way, points));
+        for (int v = 0; v < mesh.vertex_count(); ++v) points.row(v) = point_on(way, places[v]);
         mesh.positions = points;
         write_mesh(output_, {mesh, {}, {}, {}, {}, {}});
     }
 
-    std::vector<MeshPoint> nearest(const Mesh& mesh, const Positions& points) {
+    std::vector<MeshPoint> nearest(const Direction& way, const Positions& points) {
         std::vector<MeshPoint> places;
-        for (const NearestPlace& found : nearest_places(mesh, points)) {
+        for (const NearestPlace& found : nearest_places(way.from(), points / way.from_unit())) {
             places.push_back(found.place);
-            farthest_ = std::max(farthest_, found.distance);
+            farthest_ = std::max(farthest_, way.from_unit() * found.distance);
         }
         return places;
     }
 
-    static Eigen::Vector3d point_of(const Mesh& mesh, const MeshPoint& place) {
+    static Eigen::Vector3d point_on(const Direction& way, const MeshPoint& place) {
         Eigen::Vector3d point = Eigen::Vector3d::Zero();
-        for (int i = 0; i < 3; ++i) point += place.barycentric[i] * mesh.point(place.vertices[i]);
-        return point;
+        for (int i = 0; i < 3; ++i) point += place.barycentric[i] * way.to().point(place.vertices[i]);
+        return way.to_unit() * point;
     }
 
     std::string source_, target_, places_, output_, values_, face_values_, points_, mesh_;
-    bool texture_ = false, back_ = false, as_places_ = false, quiet_ = false;
+    int target_outer_ = 0;
+    bool texture_ = false, overlay_ = false, back_ = false, as_places_ = false, quiet_ = false;
     double farthest_ = 0;
 };
 

@@ -9,6 +9,7 @@
 #include <beltrami/registration/register_spheres.h>
 
 #include "gallery/sliding.h"
+#include "problems/noisy_copy.h"
 #include "problems/sphere_landmarks.h"
 
 namespace beltrami::gallery {
@@ -99,14 +100,58 @@ void add_pair(Output& output, Figure& figure, Table& table, const Pair& files) {
     figure.pictures.push_back(std::move(picture));
 }
 
+/// A scan with a boundary onto its own noisy copy, by landmarks that are met and by softer and softer ones.
+void add_noisy_copy(Output& output, Figure& figure, const char* file, double azimuth, double elevation) {
+    const auto path = scan_path(file);
+    if (!path) return;
+    const Surface source = surface_of(*path);
+    const std::string name = path->stem().string();
+    Table table{
+        name + " (" + std::to_string(source.mesh.face_count()) + " faces, " +
+            std::to_string(source.topology.boundary_loops.size()) +
+            " boundary loops, which slide) onto a copy with noise of a tenth of an edge; six landmarks inside "
+            "whose places are off by two edges, met and soft. Distances in mean edges",
+        {"weight", "k", "k of the inverse", "K_lower (estimate)", "K", "largest distance", "flips", "flips in space"},
+        {}};
+    for (const double weight : {std::numeric_limits<double>::infinity(), 1e4, 1e2, 1.0}) {
+        const bench::NoisyCopy copy = bench::noisy_copy(source, {.weight = weight});
+        const Surface target(copy.mesh);
+        const OpenRegistration found = register_open(source, target, copy.landmarks);
+        const bool met = std::isinf(weight);
+        table.rows.push_back(
+            {met ? "met" : number(weight, 0), number(found.map.k), found.inverse_k ? number(*found.inverse_k) : "",
+             number(found.map.K_lower), number(found.map.K), number(found.largest_distance.value_or(0) / copy.edge, 3),
+             std::to_string(found.map.distortion.flipped.size()), std::to_string(found.in_space.flipped.size())});
+        if (!met && weight != 1e2) continue;
+        const std::string label = "register_" + name + (met ? "_met" : "_soft");
+        Mesh image = source.mesh;
+        image.positions = found.positions;
+        image.texture.reset();
+        const std::string after = output.write(label, image, Eigen::VectorXcd::Zero(source.mesh.vertex_count()),
+                                               found.map.distortion.face_abs_mu);
+        const double shown = std::clamp(6 * found.map.k, 0.05, 1.0);
+        Picture picture{label,
+                        name + " on its noisy copy, six landmarks inside " +
+                            (met ? std::string("met") : "of weight " + number(weight, 0)) +
+                            " (the edges at them are drawn).",
+                        {}};
+        picture.panels.push_back(
+            surface_panel(after, "|μ|", "mu", azimuth, elevation, 1, shown, stars(source.mesh, copy.landmarks)));
+        picture.panels.push_back(histogram_panel({{"", after}}, "", {}, shown));
+        figure.pictures.push_back(std::move(picture));
+    }
+    figure.tables.push_back(std::move(table));
+}
+
 }  // namespace
 
 Figure registrations(Output& output) {
-    Figure figure{"Registration with landmarks",
-                  "Extremal maps between closed surfaces that take landmarks to their places, by way of the sphere "
-                  "([registration](register.md)). Fingers lie inside a few faces of the fish, which straight cut them "
-                  "off: the map "
-                  "itself covers them."};
+    Figure figure{
+        "Registration with landmarks",
+        "Extremal maps between surfaces that take landmarks to their places, by way of the sphere or of a circle "
+        "domain ([registration](register.md)). Fingers lie inside a few faces of the fish, which straight cut them "
+        "off: the map "
+        "itself covers them."};
     figure.tables.push_back(oracles());
     Table table{
         "Scans; k of the inverse is found with differentials of the other surface. Flips are counted on the "
@@ -120,6 +165,7 @@ Figure registrations(Output& output) {
           Pair{"fish_quad.obj", "hand_closed.obj", "landmarks_fish_quad_hand_closed_20.txt", 60, 20, -90, 70}})
         add_pair(output, figure, table, pair);
     figure.tables.push_back(std::move(table));
+    add_noisy_copy(output, figure, "alex_3.obj", 90, 0);
     return figure;
 }
 

@@ -49,7 +49,8 @@ struct RegistrationObject {
     double k = 0, K = 1, K_lower = 1, K_max = 1;
     std::string termination;
     Warnings warnings;
-    std::shared_ptr<SurfaceCorrespondence> correspondence;  // of closed surfaces
+    std::optional<double> inverse_k;
+    std::shared_ptr<SurfaceCorrespondence> correspondence;  // null where faces are flipped
 
     template <class Map>
     void take_map(const Map& map, Warnings&& found) {
@@ -82,6 +83,7 @@ RegistrationObject spheres(const SurfacePtr& source, const SurfacePtr& target, c
         SphereRegistration found = register_spheres(source->surface, target->surface, landmarks, options);
         RegistrationObject object;
         object.take_map(found.map, std::move(found.warnings));
+        object.inverse_k = found.inverse_k;
         object.correspondence = std::make_shared<SurfaceCorrespondence>(source->surface.mesh, target->surface.mesh,
                                                                         found.target_sphere.positions, found.places);
         object.take(std::move(found));
@@ -100,12 +102,17 @@ RegistrationObject open(const SurfacePtr& source, const SurfacePtr& target, cons
     options.outer_loop = outer_loop;
     options.target_outer_loop = target_outer_loop;
     Keywords keywords(given);
+    keywords.take("check_inverse", options.check_inverse);
     take_extremal(keywords, interruption, {source.get(), target.get()}, options.map);
     keywords.finish();
     return without_lock(interruption, [&] {
         OpenRegistration found = register_open(source->surface, target->surface, landmarks, options);
         RegistrationObject object;
         object.take_map(found.map, std::move(found.warnings));
+        object.inverse_k = found.inverse_k;
+        if (found.map.one_to_one())
+            object.correspondence =
+                std::make_shared<SurfaceCorrespondence>(source->surface, target->surface, found.target, found.places);
         object.take(std::move(found));
         return object;
     });
@@ -113,8 +120,8 @@ RegistrationObject open(const SurfacePtr& source, const SurfacePtr& target, cons
 
 const SurfaceCorrespondence& correspondence_of(const RegistrationObject& object) {
     if (!object.correspondence)
-        throw Error(Cause::bad_option, "values are transferred between closed surfaces, and these are open",
-                    "interpolate at the places");
+        throw Error(Cause::bad_option, "faces of the map are flipped, so that it carries nothing",
+                    "see its warnings and flipped faces");
     return *object.correspondence;
 }
 
@@ -140,6 +147,7 @@ void bind_registration(py::module_& m) {
         .def_readonly("K", &RegistrationObject::K)
         .def_readonly("K_lower", &RegistrationObject::K_lower)
         .def_readonly("K_max", &RegistrationObject::K_max)
+        .def_readonly("inverse_k", &RegistrationObject::inverse_k, "k of the inverse map, a check; None if not known")
         .def_readonly("termination", &RegistrationObject::termination)
         .def_property_readonly("warnings", [](const RegistrationObject& o) { return o.warnings; })
         .def(
@@ -151,7 +159,7 @@ void bind_registration(py::module_& m) {
                 return without_lock([&] { return transferred_vertex_values(map, rows, way_from(to_source)); });
             },
             py::arg("values"), py::arg("to_source") = false,
-            "Values of the vertices of one closed surface (#V or #V×m) at those of the other: #V×m.")
+            "Values of the vertices of one surface (#V or #V×m) at those of the other: #V×m.")
         .def(
             "transfer_faces",
             [](const RegistrationObject& o, const py::object& values, bool to_source) {
@@ -192,7 +200,7 @@ void bind_registration(py::module_& m) {
           (std::string(
                "The extremal map between two surfaces of genus 0 with equally many boundary loops that takes landmarks "
                "to their places; boundaries slide along each other.\n\nvertices, places and weights as of "
-               "register_spheres.\n\n") +
+               "register_spheres. check_inverse=True finds inverse_k.\n\n") +
            kExtremalOptions)
               .c_str());
 }

@@ -109,6 +109,45 @@ class Register(Command):
         self.assertLessEqual(soft["map"]["k"], record["map"]["k"] + 1e-4)
         self.assertGreater(soft["registration"]["largest_distance"], 0)
 
+    def test_disks_have_starts_ways_and_inverses(self):
+        points, faces = bump(16)
+        write_obj(self.path("a.obj"), points, faces)
+        write_obj(self.path("b.obj"), points, faces)
+        nearest = lambda x, y: int(np.hypot(points[:, 0] - x, points[:, 1] - y).argmin())
+        low, high = points.min(axis=0), points.max(axis=0)
+        at = lambda u, v: nearest(*(low + np.array([u, v, 0]) * (high - low))[:2])
+        fixed, led = at(.5, .5), at(.62, .5)
+        pairs = self.write_text("pairs.txt", [(v, v) for v in (fixed, led, at(.25, .25), at(.75, .75))])
+        straight = self.register("--landmarks", pairs)
+        self.assertLess(straight["map"]["k"], 2e-3)
+        self.assertAlmostEqual(straight["registration"]["inverse_k"], straight["map"]["k"], delta=5e-3)
+
+    def test_transfer_between_surfaces_with_boundary(self):
+        points, faces = bump(12)
+        write_obj(self.path("a.obj"), points, faces, points[:, :2])
+        other, other_faces = bump(17)
+        write_obj(self.path("b.obj"), other, other_faces)
+        places = self.path("places.txt")
+        self.register("--places", places)
+        arguments = ("transfer", self.path("a.obj"), self.path("b.obj"), "--places", places, "-o")
+        np.savetxt(self.path("ones.txt"), np.ones(len(faces)))
+        self.run_command(*arguments, self.path("faces.txt"), "--face-values", self.path("ones.txt"))
+        np.testing.assert_allclose(np.loadtxt(self.path("faces.txt")), np.ones(len(other_faces)))
+        np.savetxt(self.path("field.txt"), points)
+        self.run_command(*arguments, self.path("there.txt"), "--values", self.path("field.txt"))
+        # Points go and come back, boundary vertices too.
+        np.savetxt(self.path("line.txt"), points)
+        self.run_command(*arguments, self.path("on_b.txt"), "--points", self.path("line.txt"), "--as-places")
+        self.run_command(*arguments, self.path("back.txt"), "--points", self.path("on_b.txt"), "--back")
+        np.testing.assert_allclose(np.loadtxt(self.path("back.txt")), points, atol=1e-7)
+        # The overlay is B's surface, with A's texture exactly.
+        self.run_command(*arguments, self.path("both.obj"), "--overlay")
+        v, vt, both, of_corners = read_faces(self.path("both.obj"))
+        area = lambda p, f: np.linalg.norm(np.cross(p[f[:, 1]] - p[f[:, 0]], p[f[:, 2]] - p[f[:, 0]]), axis=1).sum()
+        self.assertAlmostEqual(area(np.array(v), np.array(both)), area(other, other_faces), delta=1e-6)
+        self.assertGreater(len(both), len(other_faces))
+        self.assertEqual(len(vt), 3 * len(both))
+
     def curve_file(self, *blocks):
         """Blocks (mode, vertices of A, vertices or points of B)."""
         text = ""

@@ -19,6 +19,8 @@ struct Overlay {
         std::vector<int> corners;               ///< counter-clockwise
         double part_of_source, part_of_target;  ///< of the areas of its triangles
         std::array<int, 3> source_triangle, target_triangle;
+        /// Barycentric coordinates of the corners in these triangles.
+        std::vector<std::array<double, 3>> in_source, in_target;
     };
     std::vector<Corner> corners;
     std::vector<Piece> pieces;
@@ -26,5 +28,17 @@ struct Overlay {
 
 /// The common refinement of both surfaces: where values that jump at edges of the one are wanted on the other.
 Overlay overlay(const SurfaceCorrespondence& map);
+
+/// The common refinement as a triangle mesh that lies on one of the surfaces and is, up to the roundness of boundaries,
+/// the same set in space.
+struct OverlayMesh {
+    Mesh
+        mesh;  ///< with the texture coordinates of the other surface, if it has any, exactly: one point for each corner
+    std::vector<int> source_faces, target_faces;  ///< #F, in which its faces lie
+};
+
+/// @param way to the surface on which it is to lie
+/// @throw Error bad_mesh if corners of the other surface have no texture point, and others have
+OverlayMesh overlay_mesh(const SurfaceCorrespondence& map, TransferWay way = TransferWay::to_target);
 
 }  // namespace beltrami

@@ -11,7 +11,12 @@
 namespace beltrami BELTRAMI_PUBLIC {
 
 struct OpenRegistrationOptions {
-    ExtremalOptions map;
+    ExtremalOptions map;  ///< its start is made of those below
+    /// Places on the target of every vertex of the source, to start from.
+    std::vector<MeshPoint> start = {};
+    /// Ways of landmarks inside over the target, which choose the homotopy class.
+    std::vector<SurfaceWaypoint> waypoints = {};
+    bool check_inverse = true;
     int outer_loop = 0;         ///< the boundary loop of the source whose partner goes to the unit circle
     int target_outer_loop = 0;  ///< that partner
 };
@@ -20,14 +25,19 @@ struct OpenRegistrationOptions {
 struct OpenRegistration : CarriedSurface {
     ExtremalMap map;           ///< of the source to the target's circle domain: k, φ, bounds, |μ|
     CircleDomainChart target;  ///< that domain
+    /// k of the inverse map, sampled at the target's vertices, after a step of the iteration there, with the target's
+    /// own differentials; empty if not wanted, or where the map is not one-to-one.
+    std::optional<double> inverse_k;
     Warnings warnings;
 };
 
 /// The extremal map between two surfaces of genus 0 with equally many boundary loops that takes landmarks to their
 /// places: boundaries slide along each other, landmarks inside are pinned, those on the boundary marked
-/// (extremal_map.h), by way of the target's circle domain. Soft landmarks move from their places as those of the sphere
-/// do (soft_landmarks.h).
-/// @throw Error bad_mesh, bad_boundary, bad_option (a soft landmark on the boundary, too), not_solved, cancelled
+/// (extremal_map.h), by way of the target's circle domain. A landmark on the boundary goes to the point of the target's
+/// boundary nearest to its place, with a warning where that is far. Soft landmarks move from their places as those of
+/// the sphere do (soft_landmarks.h).
+/// @throw Error bad_mesh, bad_boundary (a way through a hole, too), bad_option (a soft landmark or a waypoint on the
+///        boundary, too), not_solved, cancelled
 OpenRegistration register_open(const Surface& source, const Surface& target, std::span<const SurfaceLandmark> landmarks,
                                const OpenRegistrationOptions& options = {});
 

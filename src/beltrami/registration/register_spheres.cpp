@@ -16,7 +16,6 @@ namespace beltrami {
 
 namespace {
 
-constexpr int kMostSteps = 1000;     // of a way
 constexpr double kLeastLimb = 1e-3;  // on the sphere, of a limb that a landmark is in
 
 template <class Call>
@@ -39,18 +38,11 @@ Positions on_sphere(const Positions& sphere, std::span<const MeshPoint> places) 
 std::vector<Positions> stops(std::span<const SurfaceWaypoint> waypoints, std::span<const SurfaceLandmark> landmarks,
                              const Positions& sphere) {
     std::vector<Positions> result;
-    for (const SurfaceWaypoint& waypoint : waypoints) {
-        const auto landmark = std::find_if(landmarks.begin(), landmarks.end(),
-                                           [&](const SurfaceLandmark& l) { return l.vertex == waypoint.vertex; });
-        if (waypoint.step < 1 || waypoint.step > kMostSteps || landmark == landmarks.end())
-            throw Error(Cause::bad_option,
-                        "a waypoint of vertex " + std::to_string(waypoint.vertex) + " at step " +
-                            std::to_string(waypoint.step) + " is impossible",
-                        "waypoints belong to landmarks and to steps from 1 to " + std::to_string(kMostSteps));
-        while (static_cast<int>(result.size()) < waypoint.step)
-            result.emplace_back(Positions::Constant(static_cast<Eigen::Index>(landmarks.size()), 3,
-                                                    std::numeric_limits<double>::quiet_NaN()));
-        result[waypoint.step - 1].row(landmark - landmarks.begin()) = sphere_place(sphere, waypoint.place);
+    for (const auto& named : stops_of(waypoints, landmarks)) {
+        Positions& stop = result.emplace_back(Positions::Constant(static_cast<Eigen::Index>(landmarks.size()), 3,
+                                                                  std::numeric_limits<double>::quiet_NaN()));
+        for (std::size_t i = 0; i < named.size(); ++i)
+            if (named[i]) stop.row(static_cast<Eigen::Index>(i)) = sphere_place(sphere, *named[i]);
     }
     return result;
 }

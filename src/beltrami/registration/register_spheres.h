@@ -13,13 +13,6 @@
 
 namespace beltrami BELTRAMI_PUBLIC {
 
-/// Where a landmark is at a step of its way.
-struct SurfaceWaypoint {
-    int step = 1;  ///< from 1; the landmarks' places come after the last step
-    int vertex = 0;
-    MeshPoint place;
-};
-
 struct RegistrationOptions {
     ExtremalSphereOptions map;  ///< of the extremal map; its start and waypoints are those below
     SphereMapOptions sphere;    ///< of both conformal maps

@@ -33,6 +33,8 @@ SphereLocator::SphereLocator(const FaceList& faces, const Positions& points)
     : points_(points),
       triangles_(as_triangles(faces, points, face_of_triangle_)),
       across_(neighbours(triangles_)),
+      closed_(std::none_of(across_.begin(), across_.end(),
+                           [](const auto& beyond) { return std::count(beyond.begin(), beyond.end(), -1) > 0; })),
       nearest_(points, triangles_) {}
 
 std::array<double, 3> SphereLocator::weights(int triangle, const Eigen::Vector3d& point) const {
@@ -59,13 +61,11 @@ int SphereLocator::walk(int triangle, const Eigen::Vector3d& point) const {
     return best;
 }
 
-Eigen::Vector3d SphereLocator::middle(int t) const {
-    const auto& [a, b, c] = triangles_[t];
-    return (point(a) + point(b) + point(c)).normalized();
-}
-
 MeshPoint SphereLocator::locate(const Eigen::Vector3d& point) const {
-    return place_in(triangle_at(point), point);
+    if (closed_) return place_in(triangle_at(point), point);
+    // In the plane the nearest triangle of those in space is the one that contains the point, if there is one.
+    const SurfaceLocator::Place near = nearest_.nearest(point);
+    return {face_of_triangle_[near.triangle], triangles_[near.triangle], near.barycentric};
 }
 
 MeshPoint SphereLocator::place_in(int triangle, const Eigen::Vector3d& point) const {

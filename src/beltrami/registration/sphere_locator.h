@@ -11,14 +11,15 @@ namespace beltrami {
 
 /// Finds the geodesic triangles of a mesh on the unit sphere that contain given points; quads are two triangles
 /// (quad_split.h). Barycentric coordinates are gnomonic, so that a point lies on the ray through their mean of the
-/// corners.
+/// corners. Nothing depends on more than rays: points may be those of the plane z = 1 as well, where a boundary may be.
 class SphereLocator {
   public:
-    /// @param faces  triangles and quads that cover the sphere once
-    /// @param points #V×3 unit vectors
+    /// @param faces  triangles and quads that cover the sphere, or their part of the plane, once
+    /// @param points #V×3 unit vectors, or with z = 1
     SphereLocator(const FaceList& faces, const Positions& points);
 
-    /// @param point unit vector
+    /// Of a point that no triangle contains the nearest place.
+    /// @param point unit vector, or with z = 1
     MeshPoint locate(const Eigen::Vector3d& point) const;
     /// Of many points (one row each), on all threads.
     std::vector<MeshPoint> locate(const Positions& points) const;
@@ -27,9 +28,6 @@ class SphereLocator {
     const std::array<int, 3>& triangle(int t) const { return triangles_[t]; }
     /// The triangles beyond the edges opposite to each corner, −1 beyond a boundary.
     const std::array<int, 3>& across(int t) const { return across_[t]; }
-    Eigen::Vector3d point(int vertex) const { return points_.row(vertex); }
-    /// On the sphere.
-    Eigen::Vector3d middle(int t) const;
     /// The triangle that contains a point.
     int triangle_at(const Eigen::Vector3d& point) const { return walk(nearest_.nearest(point).triangle, point); }
     /// The place of a point of a triangle.
@@ -43,6 +41,7 @@ class SphereLocator {
     std::vector<int> face_of_triangle_;
     std::vector<std::array<int, 3>> triangles_;
     std::vector<std::array<int, 3>> across_;  ///< the triangle beyond the edge opposite to each corner
+    bool closed_;
     SurfaceLocator nearest_;
 };
 

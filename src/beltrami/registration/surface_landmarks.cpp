@@ -14,8 +14,26 @@ namespace beltrami {
 namespace {
 
 constexpr double kLimbPart = 1e-3;  // of the area, around a vertex
+constexpr int kMostSteps = 1000;    // of a way
 
 }  // namespace
+
+std::vector<std::vector<std::optional<MeshPoint>>> stops_of(std::span<const SurfaceWaypoint> waypoints,
+                                                            std::span<const SurfaceLandmark> landmarks) {
+    std::vector<std::vector<std::optional<MeshPoint>>> result;
+    for (const SurfaceWaypoint& waypoint : waypoints) {
+        const auto landmark = std::find_if(landmarks.begin(), landmarks.end(),
+                                           [&](const SurfaceLandmark& l) { return l.vertex == waypoint.vertex; });
+        if (waypoint.step < 1 || waypoint.step > kMostSteps || landmark == landmarks.end())
+            throw Error(Cause::bad_option,
+                        "a waypoint of vertex " + std::to_string(waypoint.vertex) + " at step " +
+                            std::to_string(waypoint.step) + " is impossible",
+                        "waypoints belong to landmarks and to steps from 1 to " + std::to_string(kMostSteps));
+        while (static_cast<int>(result.size()) < waypoint.step) result.emplace_back(landmarks.size());
+        result[waypoint.step - 1][landmark - landmarks.begin()] = waypoint.place;
+    }
+    return result;
+}
 
 MeshPoint place_of_vertex(const Mesh& mesh, int vertex) {
     for (int f = 0; f < mesh.face_count(); ++f) {
@@ -30,6 +48,12 @@ MeshPoint place_of_vertex(const Mesh& mesh, int vertex) {
 int nearest_vertex(const MeshPoint& place) {
     const auto largest = std::max_element(place.barycentric.begin(), place.barycentric.end());
     return place.vertices[largest - place.barycentric.begin()];
+}
+
+int vertex_at(const MeshPoint& place) {
+    for (int i = 0; i < 3; ++i)
+        if (place.barycentric[i] == 1) return place.vertices[i];
+    return -1;
 }
 
 double squared_scale(const Surface& surface, const Positions& chart, const MeshPoint& place) {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <span>
+#include <vector>
 
 #include <beltrami/base/public.h>
 #include <beltrami/locate/planar_locator.h>
@@ -18,12 +20,27 @@ struct SurfaceLandmark {
     double weight = std::numeric_limits<double>::infinity();
 };
 
+/// Where a landmark is at a step of its way.
+struct SurfaceWaypoint {
+    int step = 1;  ///< from 1; the landmarks' places come after the last step
+    int vertex = 0;
+    MeshPoint place;
+};
+
+/// Of every step the places of the landmarks that it names, in their order.
+/// @throw Error bad_option for a waypoint of no landmark, or an impossible step
+std::vector<std::vector<std::optional<MeshPoint>>> stops_of(std::span<const SurfaceWaypoint> waypoints,
+                                                            std::span<const SurfaceLandmark> landmarks);
+
 /// The place of a mesh that is a vertex.
 /// @throw Error bad_boundary if no face has the vertex
 MeshPoint place_of_vertex(const Mesh& mesh, int vertex);
 
 /// The corner of a place with the largest weight.
 int nearest_vertex(const MeshPoint& place);
+
+/// The vertex that a place is; −1: it is none.
+int vertex_at(const MeshPoint& place);
 
 /// Area of a surface around a place per area of its image in a chart, as part of the whole: what squared distances in
 /// the chart are multiplied by.

@@ -1,26 +1,34 @@
 #include <beltrami/registration/transfer.h>
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include <Eigen/Geometry>
 
 #include <beltrami/base/error.h>
 #include <beltrami/base/parallel.h>
+#include <beltrami/registration/boundary_match.h>
+#include <beltrami/registration/drawn_surface.h>
 #include <beltrami/registration/overlay.h>
-#include <beltrami/registration/sphere_locator.h>
-#include <beltrami/sphere/unit_sphere.h>
+#include <beltrami/registration/surface_landmarks.h>
 
 namespace beltrami {
 
 namespace {
 
-std::vector<MeshPoint> carried(const Positions& from, const SphereLocator& to, std::span<const MeshPoint> places) {
+std::vector<MeshPoint> carried(const DrawnSurface& from, const DrawnSurface& to, std::span<const MeshPoint> places) {
     std::vector<MeshPoint> result(places.size());
     parallel_for(0, static_cast<int>(places.size()), [&](int first, int last) {
-        for (int i = first; i < last; ++i) result[i] = to.locate(sphere_place(from, places[i]));
+        for (int i = first; i < last; ++i) result[i] = to.locate(from.point_of(places[i]));
     });
     return result;
+}
+
+void require_sizes(const Mesh& source, const Mesh& target, std::size_t places, Eigen::Index points) {
+    if (static_cast<int>(places) != source.vertex_count() || points != target.vertex_count())
+        throw Error(Cause::bad_option, "the places or the sphere or circle domain belong to other meshes",
+                    "give a place for every vertex of the source, and a point for every vertex of the target");
 }
 
 /// A correspondence as one way sees it: what is given, what is to get it, and where a place of that comes from.
@@ -34,28 +42,47 @@ struct Seen {
     }
 };
 
+/// A place inside a face.
+MeshPoint middle_of_face(const Mesh& mesh, int face) {
+    const auto v = mesh.faces[face];
+    return {face, {v[0], v[1], v[2]}, {1.0 / 3, 1.0 / 3, 1.0 / 3}};
+}
+
 }  // namespace
 
 SurfaceCorrespondence::SurfaceCorrespondence(const Mesh& source, const Mesh& target, const Positions& target_sphere,
                                              std::span<const MeshPoint> places)
-    : source_(source), target_(target), source_sphere_(source.vertex_count(), 3), target_sphere_(target_sphere) {
-    if (static_cast<int>(places.size()) != source.vertex_count() || target_sphere.rows() != target.vertex_count())
-        throw Error(Cause::bad_option, "the places or the sphere belong to other meshes",
-                    "give a place for every vertex of the source, and a point for every vertex of the target");
-    for (std::size_t v = 0; v < places.size(); ++v)
-        source_sphere_.row(static_cast<Eigen::Index>(v)) = sphere_place(target_sphere_, places[v]);
-    std::vector<int> faces, flipped;
-    const std::vector<std::array<int, 3>> triangles = as_triangles(source_.faces, source_sphere_, faces);
-    for (std::size_t t = 0; t < triangles.size(); ++t) {
-        const auto [a, b, c] = triangles[t];
-        if (!(oriented_volume(source_sphere_.row(a), source_sphere_.row(b), source_sphere_.row(c)) > 0))
-            flipped.push_back(faces[t]);
+    : source_(source), target_(target) {
+    require_sizes(source, target, places.size(), target_sphere.rows());
+    on_target_ = std::make_unique<DrawnSurface>(target.faces, target_sphere, DrawnSurface::On::sphere);
+    Positions drawn(source.vertex_count(), 3);
+    for (std::size_t v = 0; v < places.size(); ++v) {
+        drawn.row(static_cast<Eigen::Index>(v)) = sphere_place(target_sphere, places[v]);
+        partners_.push_back(vertex_at(places[v]));
     }
+    on_source_ = std::make_unique<DrawnSurface>(source.faces, drawn, DrawnSurface::On::sphere);
+    require_upright();
+}
+
+SurfaceCorrespondence::SurfaceCorrespondence(const Surface& source, const Surface& target,
+                                             const CircleDomainChart& circles, std::span<const MeshPoint> places)
+    : source_(source.mesh), target_(target.mesh) {
+    require_sizes(source_, target_, places.size(), circles.chart.vertices.size());
+    BoundaryMatch match = match_boundaries(source, target, circles, places);
+    on_source_ = std::make_unique<DrawnSurface>(source_.faces, std::move(match.source), DrawnSurface::On::plane,
+                                                match.source_bends);
+    on_target_ = std::make_unique<DrawnSurface>(target_.faces, std::move(match.target), DrawnSurface::On::plane,
+                                                match.target_bends);
+    partners_ = std::move(match.partners);
+    require_upright();
+}
+
+void SurfaceCorrespondence::require_upright() const {
+    const std::vector<int> flipped = on_source_->flipped();
     if (!flipped.empty())
         throw Error(Cause::bad_mesh, std::to_string(flipped.size()) + " faces are flipped between their places",
-                    "give places that a registration of these two meshes wrote", {Things::faces, flipped});
-    on_source_ = std::make_unique<SphereLocator>(source_.faces, source_sphere_);
-    on_target_ = std::make_unique<SphereLocator>(target_.faces, target_sphere_);
+                    "give places that a registration of these two meshes wrote, onto the same outer loop of the target",
+                    {Things::faces, flipped});
 }
 
 SurfaceCorrespondence::~SurfaceCorrespondence() = default;
@@ -63,11 +90,11 @@ SurfaceCorrespondence::SurfaceCorrespondence(SurfaceCorrespondence&&) noexcept =
 SurfaceCorrespondence& SurfaceCorrespondence::operator=(SurfaceCorrespondence&&) noexcept = default;
 
 std::vector<MeshPoint> SurfaceCorrespondence::forward(std::span<const MeshPoint> places) const {
-    return carried(source_sphere_, *on_target_, places);
+    return carried(*on_source_, *on_target_, places);
 }
 
 std::vector<MeshPoint> SurfaceCorrespondence::back(std::span<const MeshPoint> places) const {
-    return carried(target_sphere_, *on_source_, places);
+    return carried(*on_target_, *on_source_, places);
 }
 
 std::vector<MeshPoint> places_of_vertices(const Mesh& mesh) {
@@ -115,9 +142,27 @@ Positions transferred_face_values(const SurfaceCorrespondence& map, const Positi
         result.row(to) += area * values.row(from);
         covered[to] += area;
     }
-    for (Eigen::Index f = 0; f < covered.size(); ++f)
-        if (covered[f] > 0) result.row(f) /= covered[f];
+    for (int f = 0; f < seen.to().face_count(); ++f) {
+        if (covered[f] > 0)
+            result.row(f) /= covered[f];
+        else
+            result.row(f) = values.row(seen.origins(std::array{middle_of_face(seen.to(), f)})[0].face);
+    }
     return result;
+}
+
+Eigen::RowVector2d texture_at(const Mesh& mesh, const MeshPoint& place) {
+    const auto of_face = mesh.faces[place.face];
+    Eigen::RowVector2d point = Eigen::RowVector2d::Zero();
+    for (int j = 0; j < 3; ++j) {
+        const auto at = std::find(of_face.begin(), of_face.end(), place.vertices[j]) - of_face.begin();
+        const int number = mesh.texture->corners[static_cast<std::size_t>(mesh.faces.first_corner(place.face) + at)];
+        if (number < 0)
+            throw Error(Cause::bad_mesh, "a corner of face " + std::to_string(place.face) + " has no texture point",
+                        "give every corner one", {Things::faces, {place.face}});
+        point += place.barycentric[j] * mesh.texture->points.row(number);
+    }
+    return point;
 }
 
 TextureCoordinates transferred_texture(const SurfaceCorrespondence& map, TransferWay way) {
@@ -136,20 +181,8 @@ TextureCoordinates transferred_texture(const SurfaceCorrespondence& map, Transfe
                                {1 - 2 * kInward, kInward, kInward}});
         const std::vector<MeshPoint> there = seen.origins(corners);
         for (std::size_t i = 0; i < v.size(); ++i) {
-            const int first = source.faces.first_corner(there[i].face);
-            const auto of_face = source.faces[there[i].face];
-            Eigen::RowVector2d point = Eigen::RowVector2d::Zero();
-            for (int j = 0; j < 3; ++j) {
-                const auto at = std::find(of_face.begin(), of_face.end(), there[i].vertices[j]) - of_face.begin();
-                const int number = source.texture->corners[static_cast<std::size_t>(first + at)];
-                if (number < 0)
-                    throw Error(Cause::bad_mesh,
-                                "a corner of face " + std::to_string(there[i].face) + " has no texture point",
-                                "give every corner one", {Things::faces, {there[i].face}});
-                point += there[i].barycentric[j] * source.texture->points.row(number);
-            }
             const int corner = target.faces.first_corner(f) + static_cast<int>(i);
-            result.points.row(corner) = point;
+            result.points.row(corner) = texture_at(source, there[i]);
             result.corners.push_back(corner);
         }
     }

@@ -218,7 +218,9 @@ RegistrationRecord registration_record(const LpRegistration& result, double p, c
 
 RegistrationRecord registration_record(const OpenRegistration& result, const std::string& target,
                                        std::size_t landmarks) {
-    return carried_record(result, target, landmarks);
+    RegistrationRecord record = carried_record(result, target, landmarks);
+    record.inverse_k = result.inverse_k;
+    return record;
 }
 
 RegistrationRecord registration_record(const HandleRegistration& result, const HyperbolicShape& source,

@@ -199,12 +199,14 @@ struct Settled {
 /// they are in the source, and at the end back: that costs nothing, and away from the landmarks the map is then about
 /// as smooth as a mesh can draw it. Soft landmarks measure distances and stay where they are.
 /// @param surface that of the problem
+/// @param turn    whether to turn them: in crowded parts faces may be flipped when the map is turned back
 Settled settle(const Surface& surface, SphereProblem& problem, const Positions& on_sphere, const Positions& start,
-               const Landmarks& landmarks, const ExtremalSphereOptions& options) {
+               const Landmarks& landmarks, const ExtremalSphereOptions& options, bool turn = true) {
     const SphereFaces faces(surface);
     Positions from = start;
-    if (!landmarks.soft()) from = moebius_fitted(start, landmarks.vertices, on_sphere(landmarks.vertices, Eigen::all));
-    const bool turned = !landmarks.soft() && faces.flipped(from).empty();
+    turn = turn && !landmarks.soft();
+    if (turn) from = moebius_fitted(start, landmarks.vertices, on_sphere(landmarks.vertices, Eigen::all));
+    const bool turned = turn && faces.flipped(from).empty();
     SphereMapStep step(surface, landmarks.vertices, turned ? from : start);
     Settled result;
     if (landmarks.soft()) {
@@ -225,6 +227,9 @@ Settled settle(const Surface& surface, SphereProblem& problem, const Positions& 
         result.points = moebius_fitted(std::move(result.points), landmarks.vertices, landmarks.images);
         for (std::size_t i = 0; i < landmarks.vertices.size(); ++i)
             result.points.row(landmarks.vertices[i]) = landmarks.images.row(static_cast<Eigen::Index>(i));
+        if (!faces.flipped(result.points).empty() &&
+            !repair_sphere_map(surface, faces, result.points, landmarks.vertices).flipped.empty())
+            return settle(surface, problem, on_sphere, start, landmarks, options, false);
     }
     return result;
 }

@@ -13,18 +13,12 @@
 #include <beltrami/registration/curve_start.h>
 
 #include "support/cause_of.h"
+#include "support/registration.h"
 
 namespace beltrami {
 namespace {
 
-Mesh bumpy(int levels, double phase) {
-    Mesh mesh = icosahedral_sphere(levels);
-    for (int v = 0; v < mesh.vertex_count(); ++v) {
-        const Eigen::Vector3d p = mesh.point(v);
-        mesh.positions.row(v) *= 1 + 0.2 * std::sin(3 * p.x() + phase) + 0.1 * p.y();
-    }
-    return mesh;
-}
+using test::bumpy_ball;
 
 /// Through the vertices of a mesh of the sphere that are nearest to some directions, turned around the z-axis.
 CurveThrough curve_through(const Mesh& mesh, const std::vector<Eigen::Vector3d>& directions, double turn, bool closed) {
@@ -43,7 +37,7 @@ const std::vector<Eigen::Vector3d> kArc{{1, 0, .1}, {.5, .8, .3}, {-.4, .9, .2}}
     kRing{{1, 0, -.5}, {0, 1, -.5}, {-1, 0, -.5}, {0, -1, -.5}};
 
 TEST(RegisterLeastLp, CurvesSlideOrStay) {
-    const Surface source(bumpy(3, 0)), target(bumpy(3, 1));
+    const Surface source(bumpy_ball(3, 0)), target(bumpy_ball(3, 1));
     double energies[2];
     for (const bool slides : {true, false}) {
         const std::array pairs{
@@ -65,7 +59,7 @@ TEST(RegisterLeastLp, CurvesSlideOrStay) {
 }
 
 TEST(RegisterLeastLp, WithoutCurvesMeetsLandmarks) {
-    const Surface source(bumpy(3, 0)), target(bumpy(3, 1));
+    const Surface source(bumpy_ball(3, 0)), target(bumpy_ball(3, 1));
     std::vector<SurfaceLandmark> landmarks;
     for (const int v : {0, 1, 2, 3, 7}) landmarks.push_back({v, place_of_vertex(target.mesh, v)});
     double last = 0;
@@ -84,7 +78,7 @@ TEST(RegisterLeastLp, WithoutCurvesMeetsLandmarks) {
 }
 
 TEST(MapCutAlongCurves, PartsOfASphereWithOneCurveAreNotFolded) {
-    const Mesh here = bumpy(3, 0), there = bumpy(4, 1);
+    const Mesh here = bumpy_ball(3, 0), there = bumpy_ball(4, 1);
     for (const bool closed : {false, true}) {
         const auto& points = closed ? kRing : kArc;
         const MeshWithCurves source = mesh_with_curves(here, std::array{curve_through(here, points, 0, closed)}),
@@ -144,7 +138,7 @@ TEST(RegisterLeastLp, SurfacesWithBoundaryAndTheirCurves) {
 }
 
 TEST(RegisterLeastLp, RefusesWhatCannotBe) {
-    const Surface source(bumpy(2, 0)), target(bumpy(2, 1));
+    const Surface source(bumpy_ball(2, 0)), target(bumpy_ball(2, 1));
     const CurveThrough arc = curve_through(source.mesh, kArc, 0, false),
                        ring = curve_through(target.mesh, kRing, 0, true);
     const auto cause = [&](const std::vector<SurfaceLandmark>& landmarks, const std::vector<CurvePair>& curves) {

@@ -12,21 +12,14 @@
 #include <beltrami/registration/nearest_places.h>
 
 #include "support/cause_of.h"
+#include "support/registration.h"
 
 namespace beltrami {
 namespace {
 
-/// A square sheet, raised; the same with its vertices moved along it.
+/// 20×20 cells.
 Mesh sheet(double moved) {
-    Mesh mesh = rectangle(2, 2, 20, 20);
-    Positions positions(mesh.vertex_count(), 3);
-    for (int v = 0; v < mesh.vertex_count(); ++v) {
-        const double x = mesh.positions(v, 0), y = mesh.positions(v, 1);
-        const double u = x + moved * x * (2 - x) * std::sin(2 * y);
-        positions.row(v) << u, y, 0.3 * std::sin(u) * y;
-    }
-    mesh.positions = positions;
-    return mesh;
+    return test::raised_sheet(20, moved);
 }
 
 std::vector<SurfaceLandmark> some_landmarks(const Mesh& target, double weight) {
@@ -62,6 +55,34 @@ TEST(RegisterOpen, SoftLandmarksBalance) {
         last_k = found.map.k;
         last_distance = *found.largest_distance;
     }
+}
+
+TEST(RegisterOpen, TheInverseHasAboutTheSameK) {
+    const Surface source(sheet(0)), target(test::raised_sheet(23, 0.15)), tube(cylinder(1, 2, 24, 12)),
+        wider(cylinder(1.5, 2.2, 30, 10));
+    std::vector<SurfaceLandmark> landmarks;
+    for (const auto& [a, b] : {std::array{110, 150}, {220, 290}, {226, 300}, {330, 440}})
+        landmarks.push_back({a, place_of_vertex(target.mesh, b)});
+    const OpenRegistration found = register_open(source, target, landmarks);
+    ASSERT_TRUE(found.inverse_k);
+    EXPECT_GT(found.map.k, 0.02);
+    EXPECT_NEAR(*found.inverse_k, found.map.k, 0.1 * found.map.k);
+    const OpenRegistration ring = register_open(tube, wider, {});
+    ASSERT_TRUE(ring.inverse_k);
+    EXPECT_NEAR(*ring.inverse_k, ring.map.k, 0.01);
+    OpenRegistrationOptions without;
+    without.check_inverse = false;
+    EXPECT_FALSE(register_open(tube, wider, {}, without).inverse_k);
+}
+
+TEST(RegisterOpen, ALandmarkOnTheBoundaryStaysThere) {
+    const Surface sheet(test::raised_sheet(20, 0));
+    // Its place is inside: it goes to the boundary beside that, and the warning says so.
+    const OpenRegistration found = register_open(sheet, sheet, test::landmarks_between(sheet.mesh, {{10, 220}}));
+    const Eigen::RowVector3d p = found.positions.row(10);
+    EXPECT_LT(std::min({p.x(), 2 - p.x(), p.y(), 2 - p.y()}), 1e-9);
+    ASSERT_FALSE(found.warnings.empty());
+    EXPECT_EQ(found.warnings[0].kind, WarningKind::marks);
 }
 
 TEST(RegisterOpen, RefusesWhatCannotBe) {

@@ -1,37 +1,22 @@
 #include <beltrami/registration/register_spheres.h>
 
 #include <cmath>
-#include <set>
 
 #include <gtest/gtest.h>
 
 #include <beltrami/base/error.h>
-#include <beltrami/charts/chart_places.h>
 #include <beltrami/generate/grids.h>
 #include <beltrami/generate/sphere.h>
-#include <beltrami/registration/overlay.h>
 #include <beltrami/registration/sphere_locator.h>
-#include <beltrami/registration/transfer.h>
 
 #include "support/cause_of.h"
+#include "support/registration.h"
 
 namespace beltrami {
 namespace {
 
-Mesh bumpy(int levels, double phase) {
-    Mesh mesh = icosahedral_sphere(levels);
-    for (int v = 0; v < mesh.vertex_count(); ++v) {
-        const Eigen::Vector3d p = mesh.point(v);
-        mesh.positions.row(v) *= 1 + 0.2 * std::sin(3 * p.x() + phase) + 0.1 * p.y();
-    }
-    return mesh;
-}
-
-std::vector<SurfaceLandmark> landmarks_between(const Mesh& target, const std::vector<std::array<int, 2>>& pairs) {
-    std::vector<SurfaceLandmark> landmarks;
-    for (const auto& [a, b] : pairs) landmarks.push_back({a, place_of_vertex(target, b)});
-    return landmarks;
-}
+using test::bumpy_ball;
+using test::landmarks_between;
 
 TEST(SphereLocator, FindsWhatItsPlacesAre) {
     const Mesh mesh = icosahedral_sphere(3);
@@ -53,7 +38,7 @@ TEST(SphereLocator, FindsWhatItsPlacesAre) {
 }
 
 TEST(RegisterSpheres, OfASurfaceOntoItselfIsTheIdentity) {
-    const Mesh mesh = bumpy(3, 0.4);
+    const Mesh mesh = bumpy_ball(3, 0.4);
     const Surface surface(mesh);
     const SphereRegistration found =
         register_spheres(surface, surface, landmarks_between(mesh, {{0, 0}, {1, 1}, {2, 2}, {3, 3}, {7, 7}}));
@@ -64,7 +49,7 @@ TEST(RegisterSpheres, OfASurfaceOntoItselfIsTheIdentity) {
 }
 
 TEST(RegisterSpheres, MeetsLandmarksAndKnowsItsInverse) {
-    const Surface source(bumpy(4, 0)), target(bumpy(4, 1));
+    const Surface source(bumpy_ball(4, 0)), target(bumpy_ball(4, 1));
     const Mesh ball = icosahedral_sphere(4);
     int beside = 0;
     while (std::abs((ball.point(beside) - ball.point(4)).norm() - 0.2) > 0.05) ++beside;
@@ -83,7 +68,7 @@ TEST(RegisterSpheres, MeetsLandmarksAndKnowsItsInverse) {
 }
 
 TEST(RegisterSpheres, SoftLandmarksBalance) {
-    const Surface source(bumpy(3, 0)), target(bumpy(3, 1));
+    const Surface source(bumpy_ball(3, 0)), target(bumpy_ball(3, 1));
     std::vector<SurfaceLandmark> landmarks =
         landmarks_between(target.mesh, {{0, 0}, {1, 1}, {2, 2}, {3, 3}, {4, 60}, {7, 7}});
     const double hard = register_spheres(source, target, landmarks).map.k;
@@ -102,7 +87,7 @@ TEST(RegisterSpheres, SoftLandmarksBalance) {
 }
 
 TEST(RegisterSpheres, NamesTheSurfaceThatCannotBe) {
-    const Surface ball(bumpy(2, 0)), ring(torus(2, 1, 12, 8));
+    const Surface ball(bumpy_ball(2, 0)), ring(torus(2, 1, 12, 8));
     EXPECT_EQ(test::cause_of([&] { register_spheres(ball, ring, {}); }), Cause::bad_mesh);
     try {
         register_spheres(ball, ring, {});
@@ -133,80 +118,6 @@ TEST(RegisterSpheres, RefusesALandmarkInsideALimb) {
         EXPECT_EQ(error.cause(), Cause::bad_boundary);
         EXPECT_NE(std::string(error.what()).find("thin limb"), std::string::npos) << error.what();
     }
-}
-
-TEST(SurfaceCorrespondence, ComesBackToWhereItBegan) {
-    const Surface source(bumpy(3, 0)), target(bumpy(4, 1));
-    const SphereRegistration found =
-        register_spheres(source, target, landmarks_between(target.mesh, {{0, 0}, {1, 1}, {2, 2}, {3, 3}, {4, 4}}));
-    const SurfaceCorrespondence map(source.mesh, target.mesh, found.target_sphere.positions, found.places);
-    std::vector<MeshPoint> places;
-    for (int f = 0; f < source.mesh.face_count(); f += 5) {
-        const auto v = source.mesh.faces[f];
-        places.push_back({f, {v[0], v[1], v[2]}, {0.2, 0.3, 0.5}});
-    }
-    const std::vector<MeshPoint> again = map.back(map.forward(places));
-    EXPECT_LT((positions_on(source.mesh, again) - positions_on(source.mesh, places)).rowwise().norm().maxCoeff(), 1e-9);
-    // Constants stay, and a vertex that is a landmark keeps its value.
-    Positions values(source.mesh.vertex_count(), 2);
-    values.col(0).setConstant(3);
-    for (int v = 0; v < values.rows(); ++v) values(v, 1) = v;
-    const Positions there = transferred_vertex_values(map, values);
-    EXPECT_LT((there.col(0).array() - 3).abs().maxCoeff(), 1e-12);
-    EXPECT_NEAR(there(3, 1), 3, 1e-6);
-    Positions areas = Positions::Ones(target.mesh.face_count(), 1);
-    EXPECT_LT((transferred_face_values(map, areas, TransferWay::to_source).array() - 1).abs().maxCoeff(), 1e-12);
-    // Exactly: integrals of values over the parts of faces are the same on both sides.
-    const Overlay both = overlay(map);
-    Eigen::VectorXd of_source = Eigen::VectorXd::Zero(source.mesh.face_count()),
-                    of_target = Eigen::VectorXd::Zero(target.mesh.face_count());
-    for (const Overlay::Piece& piece : both.pieces) {
-        of_source[piece.source_face] += piece.part_of_source;
-        of_target[piece.target_face] += piece.part_of_target;
-    }
-    EXPECT_LT((of_source.array() - 1).abs().maxCoeff(), 1e-9);
-    EXPECT_LT((of_target.array() - 1).abs().maxCoeff(), 1e-9);
-    Positions numbers(source.mesh.face_count(), 1);
-    for (int f = 0; f < numbers.rows(); ++f) numbers(f, 0) = f;
-    const Positions means = transferred_face_values(map, numbers);
-    double whole = 0, expected = 0;
-    for (int f = 0; f < target.mesh.face_count(); ++f) whole += means(f, 0) * face_vector_area(target.mesh, f).norm();
-    for (const Overlay::Piece& piece : both.pieces)
-        expected += piece.source_face * piece.part_of_target * face_vector_area(target.mesh, piece.target_face).norm();
-    EXPECT_NEAR(whole, expected, 1e-9 * expected);
-    EXPECT_EQ(test::cause_of([&] { transferred_vertex_values(map, values.topRows(3)); }), Cause::bad_option);
-    EXPECT_EQ(test::cause_of([&] { transferred_texture(map); }), Cause::bad_mesh);
-    // Places that swap two vertices flip faces.
-    std::vector<MeshPoint> swapped = found.places;
-    std::swap(swapped[20], swapped[25]);
-    EXPECT_EQ(test::cause_of(
-                  [&] { SurfaceCorrespondence(source.mesh, target.mesh, found.target_sphere.positions, swapped); }),
-              Cause::bad_mesh);
-}
-
-TEST(Overlay, OfSurfacesWithoutCommonVerticesIsASphere) {
-    const Surface source(bumpy(2, 0)), target(bumpy(3, 1));
-    const SphereRegistration found = register_spheres(source, target, {});
-    const Overlay both =
-        overlay(SurfaceCorrespondence(source.mesh, target.mesh, found.target_sphere.positions, found.places));
-    std::set<std::array<int, 2>> sides;
-    for (const Overlay::Piece& piece : both.pieces)
-        for (std::size_t i = 0; i < piece.corners.size(); ++i) {
-            const int a = piece.corners[i], b = piece.corners[(i + 1) % piece.corners.size()];
-            sides.insert({std::min(a, b), std::max(a, b)});
-        }
-    EXPECT_EQ(both.corners.size() + both.pieces.size(), sides.size() + 2);
-    EXPECT_GT(both.pieces.size(), 2U * static_cast<std::size_t>(target.mesh.face_count()));
-    // Corners are the same points on both.
-    const SurfaceCorrespondence map(source.mesh, target.mesh, found.target_sphere.positions, found.places);
-    std::vector<MeshPoint> here, there;
-    for (const Overlay::Corner& corner : both.corners) {
-        here.push_back(corner.on_source);
-        there.push_back(corner.on_target);
-    }
-    EXPECT_LT(
-        (positions_on(target.mesh, map.forward(here)) - positions_on(target.mesh, there)).rowwise().norm().maxCoeff(),
-        1e-9);
 }
 
 }  // namespace
