@@ -161,9 +161,11 @@ class Register final : public Command {
 
     OpenRegistration open(const Surface& source, const Surface& target, const std::vector<SurfaceLandmark>& landmarks,
                           const RegistrationOptions& given) const {
+        if (!given.waypoints.empty())
+            throw Error(Cause::bad_option, "--waypoints are for closed surfaces",
+                        "the class of surfaces with a boundary is that of straight ways in their circle domains");
         OpenRegistrationOptions options;
         options.start = given.start;
-        options.waypoints = given.waypoints;
         options.map.progress = given.map.progress;
         if (max_iterations_) options.map.max_iterations = *max_iterations_;
         options.outer_loop = outer_;

@@ -109,18 +109,18 @@ class Register(Command):
         self.assertLessEqual(soft["map"]["k"], record["map"]["k"] + 1e-4)
         self.assertGreater(soft["registration"]["largest_distance"], 0)
 
-    def test_disks_have_starts_ways_and_inverses(self):
+    def test_disks_have_starts_and_inverses(self):
         points, faces = bump(16)
         write_obj(self.path("a.obj"), points, faces)
         write_obj(self.path("b.obj"), points, faces)
-        nearest = lambda x, y: int(np.hypot(points[:, 0] - x, points[:, 1] - y).argmin())
-        low, high = points.min(axis=0), points.max(axis=0)
-        at = lambda u, v: nearest(*(low + np.array([u, v, 0]) * (high - low))[:2])
-        fixed, led = at(.5, .5), at(.62, .5)
-        pairs = self.write_text("pairs.txt", [(v, v) for v in (fixed, led, at(.25, .25), at(.75, .75))])
-        straight = self.register("--landmarks", pairs)
-        self.assertLess(straight["map"]["k"], 2e-3)
-        self.assertAlmostEqual(straight["registration"]["inverse_k"], straight["map"]["k"], delta=5e-3)
+        pairs = self.write_text("pairs.txt", [(v, v + 1) for v in (40, 90, 140)])
+        first = self.register("--landmarks", pairs)
+        self.assertAlmostEqual(first["registration"]["inverse_k"], first["map"]["k"], delta=.1 * first["map"]["k"])
+        pathlib.Path(self.path("out.obj")).rename(self.path("start.obj"))
+        again = self.register("--landmarks", pairs, "--start-map", self.path("start.obj"))
+        self.assertAlmostEqual(again["map"]["k"], first["map"]["k"], delta=2e-3)
+        way = self.write_text("way.txt", [(1, 40, 60)])
+        self.assertIn("closed surfaces", self.refused(2, "--landmarks", pairs, "--waypoints", way))
 
     def test_transfer_between_surfaces_with_boundary(self):
         points, faces = bump(12)

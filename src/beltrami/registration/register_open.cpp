@@ -11,8 +11,6 @@
 #include <beltrami/registration/transfer.h>
 #include <beltrami/starts/target_model.h>
 #include <beltrami/teichmuller/extremal_solver.h>
-#include <beltrami/teichmuller/mixed_conditions.h>
-#include <beltrami/teichmuller/mixed_start.h>
 
 namespace beltrami {
 
@@ -78,45 +76,16 @@ Problem problem_of(const Surface& source, const Surface& target, std::span<const
     return problem;
 }
 
-/// Where pins are to be on their ways.
-PinStops pin_stops(const Problem& problem, std::span<const SurfaceWaypoint> waypoints,
-                   std::span<const SurfaceLandmark> landmarks, const Eigen::VectorXcd& chart) {
-    PinStops result;
-    for (const auto& named : stops_of(waypoints, landmarks)) {
-        auto& stop = result.emplace_back(problem.weights.size());
-        for (std::size_t i = 0; i < named.size(); ++i) {
-            if (!named[i]) continue;
-            if (problem.pinned[i] < 0)
-                throw Error(Cause::bad_option,
-                            "a waypoint of landmark " + std::to_string(landmarks[i].vertex) +
-                                ", which is on the boundary, is impossible",
-                            "boundaries slide: lead landmarks inside", {Things::vertices, {landmarks[i].vertex}});
-            stop[problem.pinned[i]] = named[i]->interpolate(chart);
-        }
-    }
-    return result;
-}
-
-/// The start that is asked for, a map to the target's circle domain; nothing if none is.
-std::optional<Eigen::VectorXcd> wanted_start(const Surface& source, const Problem& problem,
-                                             std::span<const SurfaceLandmark> landmarks,
-                                             const CircleDomainChart& circles, const OpenRegistrationOptions& options) {
-    std::optional<Eigen::VectorXcd> start;
-    if (!options.start.empty()) {
-        if (static_cast<int>(options.start.size()) != source.mesh.vertex_count())
-            throw Error(Cause::bad_option, "the start has " + std::to_string(options.start.size()) +
-                                               " places, the source " + std::to_string(source.mesh.vertex_count()) +
-                                               " vertices");
-        start.emplace(source.mesh.vertex_count());
-        for (std::size_t v = 0; v < options.start.size(); ++v)
-            (*start)[static_cast<Eigen::Index>(v)] = options.start[v].interpolate(circles.chart.vertices);
-    }
-    const PinStops stops = pin_stops(problem, options.waypoints, landmarks, circles.chart.vertices);
-    if (stops.empty()) return start;
-    const MixedBoundary boundary = mixed_boundary(source, mixed_conditions(source, problem.constraints));
-    return (start ? mixed_start(source, boundary, *start, stops)
-                  : mixed_start(source, circle_domain_chart(source, options.outer_loop), boundary, stops))
-        .map;
+/// The start that is asked for, as a map to the target's circle domain.
+Eigen::VectorXcd wanted_start(const Surface& source, std::span<const MeshPoint> places,
+                              const CircleDomainChart& circles) {
+    if (static_cast<int>(places.size()) != source.mesh.vertex_count())
+        throw Error(Cause::bad_option, "the start has " + std::to_string(places.size()) + " places, the source " +
+                                           std::to_string(source.mesh.vertex_count()) + " vertices");
+    Eigen::VectorXcd start(source.mesh.vertex_count());
+    for (std::size_t v = 0; v < places.size(); ++v)
+        start[static_cast<Eigen::Index>(v)] = places[v].interpolate(circles.chart.vertices);
+    return start;
 }
 
 /// Boundary vertices at their angles on the target's boundary, the others where the chart has them.
@@ -214,8 +183,7 @@ OpenRegistration register_open(const Surface& source, const Surface& target, std
     result.target = circle_domain_chart(target, options.target_outer_loop);
     const Problem problem = problem_of(source, target, landmarks, result.target, options.outer_loop);
     ExtremalOptions how = options.map;
-    if (std::optional<Eigen::VectorXcd> start = wanted_start(source, problem, landmarks, result.target, options))
-        how.start = std::move(start);
+    if (!options.start.empty()) how.start = wanted_start(source, options.start, result.target);
     result.map = problem.soft ? SoftPins(source, problem.constraints, problem.weights, how).settle()
                               : extremal_map(source, problem.constraints, how);
     result.map.factorizations += result.target.factorizations;

@@ -12,10 +12,9 @@ namespace beltrami BELTRAMI_PUBLIC {
 
 struct OpenRegistrationOptions {
     ExtremalOptions map;  ///< its start is made of those below
-    /// Places on the target of every vertex of the source, to start from.
+    /// Places on the target of every vertex of the source, to start from. The iteration has no barrier: from a start of
+    /// another homotopy class than that of straight ways it may come back to that.
     std::vector<MeshPoint> start = {};
-    /// Ways of landmarks inside over the target, which choose the homotopy class.
-    std::vector<SurfaceWaypoint> waypoints = {};
     bool check_inverse = true;
     int outer_loop = 0;         ///< the boundary loop of the source whose partner goes to the unit circle
     int target_outer_loop = 0;  ///< that partner
@@ -36,8 +35,7 @@ struct OpenRegistration : CarriedSurface {
 /// (extremal_map.h), by way of the target's circle domain. A landmark on the boundary goes to the point of the target's
 /// boundary nearest to its place, with a warning where that is far. Soft landmarks move from their places as those of
 /// the sphere do (soft_landmarks.h).
-/// @throw Error bad_mesh, bad_boundary (a way through a hole, too), bad_option (a soft landmark or a waypoint on the
-///        boundary, too), not_solved, cancelled
+/// @throw Error bad_mesh, bad_boundary, bad_option (a soft landmark on the boundary, too), not_solved, cancelled
 OpenRegistration register_open(const Surface& source, const Surface& target, std::span<const SurfaceLandmark> landmarks,
                                const OpenRegistrationOptions& options = {});
 

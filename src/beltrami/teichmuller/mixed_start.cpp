@@ -13,7 +13,6 @@
 #include <beltrami/solve/dirichlet_solver.h>
 #include <beltrami/solve/sliding_map_step.h>
 #include <beltrami/starts/given_start.h>
-#include <beltrami/starts/point_push.h>
 #include <beltrami/unfold/fold_free.h>
 #include <beltrami/unfold/local_unfold.h>
 
@@ -26,8 +25,10 @@ constexpr double kOnCurve = 1e-6;
 /// Steps in which loops turn, and the movement, as part of the curve, at which they have.
 constexpr int kTurningSteps = 20;
 constexpr double kTurnedBelow = 0.02, kTurningTolerance = 1e-3;
-/// Parts in which pinned points are led from stop to stop.
-constexpr int kPartsOfStop = 4;
+/// Pushes of inner vertices, how far each goes and the disk it moves, as parts of the distance to what is not to move
+/// with it.
+constexpr int kPushes = 500;
+constexpr double kPush = 0.1, kReach = 0.9;
 /// Newton steps in which folds of the start are opened.
 constexpr int kOpeningSteps = 60;
 /// Least length of a step along a rim: parts of the mean of its neighbours, and of what arc length gives.
@@ -192,6 +193,47 @@ int folded(const Surface& source, const Eigen::VectorXcd& map) {
     return static_cast<int>(distortion(source.operators, map).flipped.size());
 }
 
+/// Carries a map's inner vertices so that those in question come to their places and none of their surroundings folds:
+/// each is pushed straight to its place, a disk about it that holds no other one and no boundary along with it, less
+/// towards the rim of the disk. A harmonic map with such vertices would fold around them.
+/// @param vertices, places of those
+/// @return whether all have come
+bool push(const Surface& source, const std::vector<int>& vertices, const std::vector<Complex>& places,
+          Eigen::VectorXcd& map) {
+    std::vector<int> rim;
+    for (const auto& loop : source.topology.boundary_loops) rim.insert(rim.end(), loop.begin(), loop.end());
+    const std::size_t n = vertices.size();
+    for (int step = 0; step < kPushes; ++step) {
+        std::vector<Complex> at(n), by(n);
+        std::vector<double> reach(n, std::numeric_limits<double>::infinity());
+        double largest = 0;  // of what is left, as part of the disk
+        for (std::size_t i = 0; i < n; ++i) {
+            at[i] = map[vertices[i]];
+            by[i] = places[i] - at[i];
+        }
+        for (std::size_t i = 0; i < n; ++i) {
+            for (std::size_t j = 0; j < n; ++j)
+                if (j != i) reach[i] = std::min(reach[i], std::abs(at[j] - at[i]));
+            for (const int v : rim) reach[i] = std::min(reach[i], std::abs(map[v] - at[i]));
+            reach[i] *= kReach;
+            if (!(reach[i] > 0)) return false;
+            largest = std::max(largest, std::abs(by[i]) / reach[i]);
+        }
+        if (largest == 0) return true;
+        const double part = std::min(1.0, kPush / largest);
+        // One after another: each of these pushes is one-to-one.
+        for (std::size_t i = 0; i < n; ++i) {
+            const double square = reach[i] * reach[i];
+            for (Eigen::Index v = 0; v < map.size(); ++v) {
+                const double far = std::norm(map[v] - at[i]) / square;
+                if (far < 1 && !source.topology.on_boundary[v]) map[v] += part * by[i] * (1 - far) * (1 - far);
+            }
+            if (part == 1) map[vertices[i]] = places[i];
+        }
+    }
+    return false;
+}
+
 /// Opens the folds of a start, if it can, with what has no freedom where it is.
 void open(const Surface& source, const std::vector<Freedom>& freedom, SlidingStart& start) {
     FoldFreeOptions options;
@@ -227,50 +269,12 @@ void place_inside(const Surface& source, const BoundaryCondition& prescribed, Sl
         places.push_back(line.point + along * std::real(std::conj(along) * (start.map[line.vertex] - line.point)));
     }
     if (inside.empty()) return;
-    push_points(source, inside, places, start.map);
+    push(source, inside, places, start.map);
     for (std::size_t i = 0; i < inside.size(); ++i) start.map[inside[i]] = places[i];
     if (folded(source, start.map) == 0) return;
     std::vector<Freedom> freedom = dirichlet_freedoms(source);
     for (const int v : inside) freedom[v] = Freedom::fixed;
     open(source, freedom, start);
-}
-
-/// Leads what is pinned inside past its stops, a part of the way at a time; what stops do not name goes straight. Folds
-/// are opened after each part: opened at the end they might come out in another class.
-void lead_inside(const Surface& source, const BoundaryCondition& prescribed, const PinStops& stops,
-                 SlidingStart& start) {
-    if (stops.empty()) return;
-    std::vector<int> inside;
-    std::vector<Complex> from, to, at;
-    std::vector<Freedom> freedom = dirichlet_freedoms(source);
-    for (std::size_t i = 0; i < prescribed.vertices.size(); ++i) {
-        const int v = prescribed.vertices[i];
-        if (source.topology.on_boundary[v]) continue;
-        inside.push_back(v);
-        from.push_back(start.map[v]);
-        to.push_back(prescribed.images[i]);
-        freedom[v] = Freedom::fixed;
-    }
-    at = from;
-    for (std::size_t step = 0; step <= stops.size(); ++step) {
-        const double part = static_cast<double>(step + 1) / static_cast<double>(stops.size() + 1);
-        const std::vector<Complex> before = at;
-        for (std::size_t i = 0; i < inside.size(); ++i)
-            at[i] =
-                (step < stops.size() ? stops[step].at(i) : std::nullopt).value_or(from[i] + part * (to[i] - from[i]));
-        for (int leg = 1; leg <= kPartsOfStop; ++leg) {
-            std::vector<Complex> places(inside.size());
-            for (std::size_t i = 0; i < inside.size(); ++i)
-                places[i] = before[i] + static_cast<double>(leg) / kPartsOfStop * (at[i] - before[i]);
-            const bool came = push_points(source, inside, places, start.map);
-            if (came && folded(source, start.map) > 0) open(source, freedom, start);
-            if (!came || folded(source, start.map) > 0)
-                throw Error(Cause::bad_boundary,
-                            "points inside cannot be led to their places at step " + std::to_string(step + 1) +
-                                " of their way: one of them or a hole is in the way, or the mesh is too coarse",
-                            "lead them around, by further waypoints", {Things::vertices, inside});
-        }
-    }
 }
 
 /// Turns the loops without held vertices to where the harmonic map has least energy; whether any was.
@@ -378,8 +382,7 @@ std::vector<SlidingLoop> places_on_curves(const Surface& source, const CircleDom
     return result;
 }
 
-SlidingStart mixed_start(const Surface& source, const CircleDomainChart& domain, const MixedBoundary& boundary,
-                         const PinStops& stops) {
+SlidingStart mixed_start(const Surface& source, const CircleDomainChart& domain, const MixedBoundary& boundary) {
     SlidingStart result;
     result.loops = places_on_curves(source, domain, boundary);
     const auto harmonic = [&] {
@@ -392,13 +395,11 @@ SlidingStart mixed_start(const Surface& source, const CircleDomainChart& domain,
         const bool still = !turn_loops(source, boundary, result) || harmonic() > 0;
         if (still) open(source, dirichlet_freedoms(source), result);
     }
-    lead_inside(source, boundary.prescribed, stops, result);
     place_inside(source, boundary.prescribed, result);
     return result;
 }
 
-SlidingStart mixed_start(const Surface& source, const MixedBoundary& boundary, const Eigen::VectorXcd& map,
-                         const PinStops& stops) {
+SlidingStart mixed_start(const Surface& source, const MixedBoundary& boundary, const Eigen::VectorXcd& map) {
     SlidingStart result;
     require_values(source, map);
     result.map = map;
@@ -420,7 +421,6 @@ SlidingStart mixed_start(const Surface& source, const MixedBoundary& boundary, c
         result.loops.push_back(std::move(sliding));
     }
     result.flips = folded(source, result.map);
-    lead_inside(source, prescribed, stops, result);
     place_inside(source, prescribed, result);
     return result;
 }

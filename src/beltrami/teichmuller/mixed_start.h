@@ -32,18 +32,13 @@ MixedBoundary mixed_boundary(const Surface& source, const MixedConditions& condi
 std::vector<SlidingLoop> places_on_curves(const Surface& source, const CircleDomainChart& domain,
                                           const MixedBoundary& boundary);
 
-/// Stops of the vertices pinned inside, in their order, on their way: one list a step, empty where a vertex goes
-/// straight.
-using PinStops = std::vector<std::vector<std::optional<Complex>>>;
-
 /// A map from which the boundary can slide: the harmonic map with boundary vertices at places_on_curves(). Where that
 /// has folds, loops without held vertices first turn until the energy
 /// of the harmonic map is least; folds that stay are opened with the boundary fixed. Pinned points inside are then
-/// pushed straight to their places, with what is around them, or past stops.
+/// pushed straight to their places, with what is around them.
 /// @return flips are those of the harmonic map, before anything inside is pushed to its place; curves are not set
-/// @throw Error as places_on_curves; bad_boundary if a way of stops runs through a hole or another pinned point
-SlidingStart mixed_start(const Surface& source, const CircleDomainChart& domain, const MixedBoundary& boundary,
-                         const PinStops& stops = {});
+/// @throw Error as places_on_curves
+SlidingStart mixed_start(const Surface& source, const CircleDomainChart& domain, const MixedBoundary& boundary);
 
 /// The same from a given map, folded or not: sliding vertices go to the nearest points of their curves
 /// (given_start.h), what is prescribed to its place, the rest stays where that leaves no folds.
@@ -51,7 +46,6 @@ SlidingStart mixed_start(const Surface& source, const CircleDomainChart& domain,
 /// @throw Error bad_option unless there is a finite value for every vertex; bad_boundary: a loop that does not run
 /// around
 ///        its curve once
-SlidingStart mixed_start(const Surface& source, const MixedBoundary& boundary, const Eigen::VectorXcd& map,
-                         const PinStops& stops = {});
+SlidingStart mixed_start(const Surface& source, const MixedBoundary& boundary, const Eigen::VectorXcd& map);
 
 }  // namespace beltrami

@@ -75,6 +75,17 @@ TEST(RegisterOpen, TheInverseHasAboutTheSameK) {
     EXPECT_FALSE(register_open(tube, wider, {}, without).inverse_k);
 }
 
+TEST(RegisterOpen, AStartLeadsToTheSameMap) {
+    const Surface source(sheet(0)), target(sheet(0.15));
+    const std::vector<SurfaceLandmark> landmarks = some_landmarks(target.mesh, std::numeric_limits<double>::infinity());
+    const OpenRegistration first = register_open(source, target, landmarks);
+    OpenRegistrationOptions again;
+    again.start = first.places;
+    EXPECT_NEAR(register_open(source, target, landmarks, again).map.k, first.map.k, 1e-3);
+    again.start.pop_back();
+    EXPECT_EQ(test::cause_of([&] { register_open(source, target, landmarks, again); }), Cause::bad_option);
+}
+
 TEST(RegisterOpen, ALandmarkOnTheBoundaryStaysThere) {
     const Surface sheet(test::raised_sheet(20, 0));
     // Its place is inside: it goes to the boundary beside that, and the warning says so.

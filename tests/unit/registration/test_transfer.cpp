@@ -154,7 +154,7 @@ TEST(Overlay, OfSurfacesWithCommonVerticesIsASphereToo) {
 /// A disk and a ring, of the same meshes and of others, both ways.
 TEST(SurfaceCorrespondence, OfSurfacesWithBoundaryIsOneToOne) {
     const Surface sheet(test::raised_sheet(12, 0)), finer(test::raised_sheet(17, 0.1)), tube(cylinder(1, 2, 16, 6)),
-        other_tube(cylinder(1.2, 2.1, 23, 9, Cells::quads));
+        other_tube(cylinder(1.2, 2.1, 23, 9)), quads(cylinder(1.2, 2.1, 23, 9, Cells::quads));
     const auto check = [](const Surface& source, const Surface& target, const OpenRegistration& found, int euler) {
         const SurfaceCorrespondence map(source, target, found.target, found.places);
         expect_covered(map, euler);
@@ -189,6 +189,11 @@ TEST(SurfaceCorrespondence, OfSurfacesWithBoundaryIsOneToOne) {
     OpenRegistrationOptions inside_out;
     inside_out.outer_loop = inside_out.target_outer_loop = 1;
     check(tube, other_tube, register_open(tube, other_tube, {}, inside_out), 0);
+    // Quads are two triangles.
+    const OpenRegistration found = register_open(tube, quads, {});
+    const SurfaceCorrespondence onto_quads(tube, quads, found.target, found.places);
+    EXPECT_EQ(euler(overlay(onto_quads)), 0);
+    EXPECT_NEAR(area(overlay_mesh(onto_quads).mesh), area(quads.mesh), 1e-9 * area(quads.mesh));
 }
 
 TEST(Overlay, HasTheExactTexture) {
