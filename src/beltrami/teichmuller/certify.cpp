@@ -241,9 +241,10 @@ Certification certify(const Surface& source, const Constraints& constraints, dou
     std::string estimate;
     if (!done.reached) estimate = improve_estimate(source, constraints, gap, options, limits, done);
     ExtremalMap& result = done.result;
-    if (result.K > done.K_upper) {  // an estimate that the bracket refutes
+    if (result.K > done.K_upper) {  // an estimate that the bracket refutes, perhaps with the one below it
         result.K = done.K_upper;
         result.k = k_of(result.K);
+        result.K_lower = std::min(result.K_lower, result.K);
     }
     done.gap = done.K_upper / result.K_lower_proved - 1;
     done.estimated_gap = gap_of(result);

@@ -28,14 +28,18 @@ void raise_to_proofs(ExtremalMap& result) {
     for (const Bound& bound : result.bounds)
         if (bound.kind == Bound::Kind::moduli) least = std::max(least, bound.K);
     result.K_lower = std::max(result.K_lower, least);
-    const double found = result.K;
-    if (!(found < least)) return;
+    if (!(result.K < least)) return;
+    double found = result.K;
+    for (const Bound& bound : result.bounds)  // K itself may have been raised before
+        if (bound.kind == Bound::Kind::reich_strebel_estimate) found = std::min(found, bound.K);
     result.K = least;
     result.k = k_of(result.K);
     // What the map attains is then as good as what is proved, whatever φ shows.
     const bool attained = result.K_max > 0 && result.K_max <= (1 + kErrorOfEstimate) * result.K_lower_proved;
     if (attained || !(found < (1 - kErrorOfEstimate) * result.K)) return;
     if (result.termination == Termination::converged) result.termination = Termination::below_bound;
+    result.noise.reset();  // an estimate by the same differentials
+    std::erase_if(result.warnings, [](const Warning& warning) { return warning.kind == WarningKind::below_bound; });
     const std::string needed = least > result.K_lower_proved ? ", but quadrilaterals of the outline force about "
                                                              : ", but no map with these conditions has less than ";
     result.warnings.push_back(

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include <beltrami/generate/grids.h>
 #include <beltrami/teichmuller/extremal_map.h>
@@ -45,6 +47,21 @@ TEST(Proofs, KIsNeverBelowWhatIsProved) {
     EXPECT_EQ(result.termination, Termination::below_bound);
     EXPECT_TRUE(std::any_of(result.warnings.begin(), result.warnings.end(),
                             [](const Warning& warning) { return warning.kind == WarningKind::below_bound; }));
+    // What is proved later takes the place of what was, in the warning too.
+    const auto sentences_of = [](const ExtremalMap& map) {
+        std::vector<std::string> sentences;
+        for (const Warning& warning : map.warnings)
+            if (warning.kind == WarningKind::below_bound) sentences.push_back(warning.sentence);
+        return sentences;
+    };
+    ExtremalMap later = result;
+    later.bounds.push_back({Bound::Kind::pair, 1.15, Bound::Of::extremal, true});
+    raise_to_proofs(later);
+    EXPECT_EQ(later.K, 1.15);
+    ASSERT_EQ(sentences_of(later).size(), 1u);
+    const auto found = [](const std::string& sentence) { return sentence.substr(0, sentence.find(',')); };
+    EXPECT_EQ(found(sentences_of(later)[0]), found(sentences_of(result)[0]));
+    EXPECT_NE(sentences_of(later)[0].find("1.150000"), std::string::npos);
     // Without the costly bounds the corner's is still there.
     ExtremalOptions options;
     options.prove = false;
