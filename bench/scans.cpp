@@ -146,7 +146,8 @@ int main(int argc, char** argv) {
             files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     fmt::print(
-        "| scan | faces | rim | slack | K_lower | K | gap | polygons: K_lower_proved | K_upper | attained | std in the chart | "
+        "| scan | faces | rim | slack | K_lower | K | gap | polygons: K_lower_proved | K_upper | attained | std in the "
+        "chart | "
         "mean "
         "| std | flips | iterations | termination | ratio | cause |\n"
         "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- "
