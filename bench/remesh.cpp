@@ -1,19 +1,25 @@
 // Remeshing with the connectivity kept: what the faces' shapes become, against tangential relaxation and the
 // least-squares maps of Gruber and Aulisa.
 //
-//     bench_remesh [--features DEGREES] [--holes N] [--noise A] [--fixed-border] MESH...
+//     bench_remesh [--features DEGREES] [--holes N] [--noise A] [--fixed-border] [--out FOLDER] MESH... [--part EDGE]
+//                  [--double-torus EDGE]
 //
 // --holes cuts N disks of two rings at farthest points, --noise moves vertices by A of their shortest edge along the
-// surface first. One line a method: angles (smallest / 1 % / median and mean deviation from 60 or 90 degrees), |μ|
-// (mean / std / max), faces that oppose the surface, largest distance from it and its mean of the diagonal, area ratio,
-// linear systems, seconds.
+// surface first, not those of features; --out has data of pictures for gallery/draw.py; --part is the plate of
+// cad_part.h, --double-torus that of generate/. Where CGAL is (libcgal-dev), its isotropic remeshing stands beside, at
+// .98 of the mean edge, ten iterations: it changes the connectivity. Then what a harmonic map of the mesh takes and the
+// others are in units of it. One line a method: angles (smallest / 1 % / median and mean deviation from 60 or 90
+// degrees), |μ| (mean / std / max), faces that oppose the surface, largest distance from it and its mean of the
+// diagonal, area ratio, linear systems, seconds.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -25,9 +31,18 @@
 #include <beltrami/space/corner_elements.h>
 #include <beltrami/space/uniform_map.h>
 
+#include "cad_part.h"
+#include "closed_harmonic.h"
+#include "picture_data.h"
+#ifdef BELTRAMI_ISOTROPIC
+#include "others/isotropic.h"
+#endif
+
 namespace {
 
 using namespace beltrami;
+
+PictureData pictures;
 
 double now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -47,6 +62,10 @@ struct Case {
           area(surface_area(mesh)) {}
 };
 
+double mesh_corners(const Case& c) {
+    return c.surface.mesh.faces.corner_count();
+}
+
 void line(const Case& c, const std::string& name, const Positions& positions, int systems, double seconds) {
     Mesh image = c.surface.mesh;
     image.positions = positions;
@@ -62,6 +81,14 @@ void line(const Case& c, const std::string& name, const Positions& positions, in
         d.standard_deviation, d.max, opposed_faces(image, c.target).size(), distance.largest / c.diagonal,
         distance.mean / c.diagonal, surface_area(image) / c.area, systems, seconds);
     std::fflush(stdout);
+    if (name != "start" && name != "normals preserved, QC iteration" && name != "remesh, p = 4") return;
+    pictures.add(name, image, d.face_abs_mu);
+    std::vector<double> degrees, parts;
+    for (std::size_t i = 0; i < angles.histogram.size(); ++i) {
+        degrees.push_back(10 * static_cast<double>(i) + 5);
+        parts.push_back(100.0 * angles.histogram[i] / mesh_corners(c));
+    }
+    pictures.add_curve(name, degrees, parts);
 }
 
 /// Mesh less the faces within two rings of so many vertices, each the farthest from those before.
@@ -93,8 +120,18 @@ Mesh with_holes(const Mesh& mesh, int holes) {
     return keep_faces(mesh, kept).mesh;
 }
 
-/// Vertices inside moved at random by at most so much of their shortest edge, along the surface.
-Mesh with_noise(const Mesh& mesh, double amount) {
+/// Vertices of borders and features.
+std::vector<char> on_curves(const Mesh& mesh, const Topology& combinatorics, std::optional<double> angle) {
+    std::vector<char> held(static_cast<std::size_t>(mesh.vertex_count()), 0);
+    const FeatureCurves features = feature_curves(mesh, combinatorics, angle);
+    for (const int v : features.corners) held[v] = 1;
+    for (const FeatureCurves::Curve& curve : features.curves)
+        for (const int v : curve.vertices) held[v] = 1;
+    return held;
+}
+
+/// Vertices inside, and not on features, moved at random by at most so much of their shortest edge, along the surface.
+Mesh with_noise(const Mesh& mesh, double amount, std::optional<double> features) {
     const MeshTarget target(mesh);
     const Topology combinatorics = topology(mesh);
     Eigen::VectorXd shortest = Eigen::VectorXd::Constant(mesh.vertex_count(), 1e300);
@@ -103,13 +140,14 @@ Mesh with_noise(const Mesh& mesh, double amount) {
         shortest[a] = std::min(shortest[a], length);
         shortest[b] = std::min(shortest[b], length);
     }
+    const std::vector<char> held = on_curves(mesh, combinatorics, features);
     std::mt19937 random(1);
     const auto uniform = [&] { return 2.0 * (static_cast<double>(random()) / 4294967296.0) - 1; };
     const Positions normals = vertex_normals(mesh);
     Mesh result = mesh;
     for (int v = 0; v < mesh.vertex_count(); ++v) {
         const double x = amount * shortest[v] * uniform(), y = amount * shortest[v] * uniform();
-        if (combinatorics.on_boundary[v]) continue;
+        if (held[v]) continue;
         const Eigen::Vector3d normal = normals.row(v), u = normal.unitOrthogonal(), w = normal.cross(u);
         result.positions.row(v) = target.nearest(mesh.point(v) + x * u + y * w).position;
     }
@@ -154,25 +192,68 @@ void least_squares(const Case& c, const char* name, Preserve preserve, const std
     line(c, fmt::format("{} preserved, QC iteration", name), map.map, map.solves, seconds);
 }
 
+/// One harmonic map to the plane, of a closed mesh less a face.
+double seconds_of_harmonic(const Case& c) {
+    const auto& loops = c.surface.topology.boundary_loops;
+    if (loops.empty()) return bench::closed_harmonic(c.surface.mesh);
+    BoundaryCondition boundary;
+    for (std::size_t l = 0; l < loops.size(); ++l)
+        for (std::size_t i = 0; i < loops[l].size(); ++i)
+            boundary.pin(loops[l][i],
+                         std::polar(1.0 + static_cast<double>(l), 2 * std::numbers::pi * static_cast<double>(i) /
+                                                                      static_cast<double>(loops[l].size())));
+    return harmonic_seconds(c.surface, boundary);
+}
+
+#ifdef BELTRAMI_ISOTROPIC
+void isotropic(const Case& c, std::optional<double> features) {
+    const Mesh& mesh = c.surface.mesh;
+    double length = 0;
+    for (const auto& [a, b] : c.surface.topology.edges) length += (mesh.point(a) - mesh.point(b)).norm();
+    length /= c.surface.topology.edge_count();
+    const double start = now();
+    const Mesh image = isotropic_remeshing(mesh, 0.98 * length, 10, features);
+    const double seconds = now() - start;
+    const AngleStatistics angles = angle_statistics(image);
+    const CornerElements elements = corner_elements(image, regular_shapes(image.faces));
+    const Distortion d = distortion(elements.operators, image.positions, vertex_normals(image));
+    const SurfaceDistance distance = surface_distance(c.target, MeshTarget(image));
+    fmt::print(
+        "| CGAL, isotropic, {} faces | {:.1f} / {:.1f} / {:.2f} / {:.2f} | {:.4f} / {:.4f} / {:.3f} | {} | {:.4f} / "
+        "{:.5f} | {:.4f} | 0 | {:.2f} |\n",
+        image.face_count(), angles.smallest, angles.one_percent, angles.median_deviation, angles.mean_deviation, d.mean,
+        d.standard_deviation, d.max, opposed_faces(image, c.target).size(), distance.largest / c.diagonal,
+        distance.mean / c.diagonal, surface_area(image) / c.area, seconds);
+}
+#endif
+
 void measure(const std::string& name, const Mesh& mesh, const RemeshOptions& given) {
     const Case c(mesh);
     fmt::print("| **{}, {} faces** | | | | | | | |\n", name, mesh.face_count());
+    pictures.begin("remesh " + std::filesystem::path(name).stem().string(), 40, 25, 0.6);
     line(c, "start", mesh.positions, 0, 0);
-    std::vector<char> held(static_cast<std::size_t>(mesh.vertex_count()), 0);
-    const FeatureCurves features = feature_curves(mesh, c.surface.topology, given.feature_angle);
-    for (const int v : features.corners) held[v] = 1;
-    for (const FeatureCurves::Curve& curve : features.curves)
-        for (const int v : curve.vertices) held[v] = 1;
+    const std::vector<char> held = on_curves(mesh, c.surface.topology, given.feature_angle);
+#ifdef BELTRAMI_ISOTROPIC
+    isotropic(c, given.feature_angle);
+#endif
     double start = now();
     const Positions relaxed = tangential_relaxation(c, held, 50);
     line(c, "tangential relaxation, 50 rounds", relaxed, 0, now() - start);
     least_squares(c, "normals", Preserve::normals, held);
     least_squares(c, "area", Preserve::area, held);
+    const double harmonic = seconds_of_harmonic(c);
+    start = now();
+    LeastSquaresMap(mesh, c.elements, c.surface.mesh.positions, held, Preserve::normals)
+        .solve(Eigen::VectorXcd::Zero(c.elements.operators.sample_count()));
+    std::string in_harmonic = fmt::format("least squares {:.1f}", (now() - start) / harmonic);
     const auto of_kind = [&](const std::string& kind, const RemeshOptions& options) {
         start = now();
         try {
             const RemeshedSurface result = remesh(c.surface, regular_shapes(mesh.faces), options);
-            line(c, kind, result.positions, result.factorizations, now() - start);
+            const double seconds = now() - start;
+            line(c, kind, result.positions, result.factorizations, seconds);
+            in_harmonic += fmt::format("; {} {:.1f}, a step {:.1f}", kind, seconds / harmonic,
+                                       seconds / harmonic / std::max(result.steps, 1));
         } catch (const Error& error) {
             fmt::print("| {} | {} | | | | | | |\n", kind, error.what());
         }
@@ -185,6 +266,8 @@ void measure(const std::string& name, const Mesh& mesh, const RemeshOptions& giv
         options.power = power;
         of_kind(fmt::format("remesh, p = {:g}", power), options);
     }
+    pictures.end("angle, degrees", "% of the angles");
+    fmt::print("| in harmonic maps of {:.3f} s: {} | | | | | | | |\n", harmonic, in_harmonic);
 }
 
 }  // namespace
@@ -197,6 +280,11 @@ int main(int argc, char** argv) {
         "| | min / 1 % / median / mean deviation | mean / std / max \\|mu\\| | opposed | distance largest / mean | "
         "area | "
         "systems | s |\n| --- | --- | --- | --- | --- | --- | --- | --- |\n");
+    const auto prepared = [&](const std::string& name, Mesh mesh) {
+        if (noise > 0) mesh = with_noise(mesh, noise, options.feature_angle);
+        if (holes > 0) mesh = with_holes(mesh, holes);
+        measure(name, mesh, options);
+    };
     try {
         for (int i = 1; i < argc; ++i) {
             const bool more = i + 1 < argc;
@@ -206,14 +294,18 @@ int main(int argc, char** argv) {
                 holes = std::stoi(argv[++i]);
             else if (!std::strcmp(argv[i], "--noise") && more)
                 noise = std::stod(argv[++i]);
+            else if (!std::strcmp(argv[i], "--out") && more)
+                pictures.set_folder(argv[++i]);
+            else if (!std::strcmp(argv[i], "--part") && more)
+                prepared("part", cad_part(std::stod(argv[++i])));
+            else if (!std::strcmp(argv[i], "--double-torus") && more)
+                prepared("double torus", double_torus(std::stod(argv[++i])));
             else if (!std::strcmp(argv[i], "--fixed-border"))
                 options.slide_border = false;
             else {
                 Mesh mesh = remove_unreferenced(read_mesh(argv[i]).mesh).mesh;
                 mesh.texture.reset();
-                if (noise > 0) mesh = with_noise(mesh, noise);
-                if (holes > 0) mesh = with_holes(mesh, holes);
-                measure(argv[i], mesh, options);
+                prepared(argv[i], std::move(mesh));
             }
         }
     } catch (const std::exception& error) {

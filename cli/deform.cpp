@@ -99,6 +99,13 @@ class Deform final : public Command {
 
     void conclude(const Surface& surface, std::size_t handles, const Deformation& result, double start) {
         append(record_.warnings, result.warnings);
+        if (const std::vector<int>& flipped = result.distortion.flipped; !flipped.empty())
+            record_.warnings.push_back(
+                {WarningKind::flipped_faces,
+                 counted(flipped.size(), "face is flipped", "faces are flipped") +
+                     " on the surface, the first is face " + std::to_string(flipped[0]) +
+                     ": where all corners of a triangle, or of a quad's corner, have places no map can open it",
+                 {Things::faces, flipped}});
         if (!result.folds.empty()) {
             std::vector<int> ends;
             for (const auto& edge : result.folds) ends.insert(ends.end(), edge.begin(), edge.end());
@@ -115,7 +122,8 @@ class Deform final : public Command {
             record_.solve = solve_record(*result.extremal, 0);
         } else {
             record_.solve->iterations = result.steps;
-            record_.solve->termination = to_string(Termination::converged);
+            record_.solve->termination =
+                to_string(result.settled ? Termination::converged : Termination::iteration_limit);
         }
         record_.solve->factorizations = result.factorizations;
         record_.solve->seconds_total = seconds() - start;

@@ -124,8 +124,8 @@ class Options(unittest.TestCase):
         for command, known in self.known.items():
             with self.subTest(command=command):
                 self.assertIn("--quiet", known)
-                self.assertEqual(command not in ("apply", "transfer", "batch"), {"--json", "--threads"} <= known)
-                self.assertEqual(command not in ("info", "distance", "apply", "transfer", "batch"), "--report" in known)
+                self.assertEqual(command not in ("apply", "image", "transfer", "batch"), {"--json", "--threads"} <= known)
+                self.assertEqual(command not in ("info", "distance", "apply", "image", "transfer", "batch"), "--report" in known)
 
 
 if __name__ == "__main__":

@@ -21,7 +21,8 @@ namespace beltrami {
 namespace {
 
 constexpr double kDamping = 0.01;
-constexpr int kUniformSteps = 40;
+constexpr int kUniformSteps = 40, kDifferentialSteps = 30;
+constexpr double kDifferentialTolerance = 1e-3;
 
 std::string counted_faces(std::size_t count) {
     return std::to_string(count) + (count == 1 ? " face folds" : " faces fold");
@@ -157,13 +158,15 @@ struct DeformSolver::Parts {
         return result;
     }
 
-    void relax(TangentialMap& map, double first_power) const {
+    /// @return whether steps for the last power gained little in the end
+    bool relax(TangentialMap& map, double first_power) const {
         map.set_damping(kDamping);
         map.set_progress(options.progress);
         std::optional<TargetMap> best;
         double least = std::numeric_limits<double>::infinity();
+        bool settled = false;
         for (double power = first_power; power <= options.last_power; power *= 2) {
-            map.relax(power, options.steps_of_power, options.tolerance);
+            settled = map.relax(power, options.steps_of_power, options.tolerance) < options.steps_of_power;
             if (options.goal != DeformGoal::spread) continue;
             const double spread = mu_statistics(map.coefficients(), elements.operators.weights).standard_deviation;
             if (spread < least) {
@@ -172,6 +175,7 @@ struct DeformSolver::Parts {
             }
         }
         if (best) map.return_to(std::move(*best));
+        return settled;
     }
 
     /// What the record tells of positions on a target.
@@ -192,9 +196,65 @@ struct DeformSolver::Parts {
         return normals_of(nearest_points(target, begin.positions));
     }
 
+    /// Faces that are flipped though not at a corner whose triangle the handles' places alone turn over.
+    std::vector<int> flipped_freely(const Deformation& result) const {
+        std::vector<char> held(static_cast<std::size_t>(source.mesh.vertex_count()), 0);
+        std::vector<char> free(static_cast<std::size_t>(source.mesh.face_count()), 0);
+        for (const int v : handles) held[v] = 1;
+        const Operators& own = elements.operators;
+        for (int s = 0; s < own.sample_count(); ++s) {
+            const auto v = own.stencil(s);
+            const bool forced = std::all_of(v.begin(), v.end(), [&](int i) { return held[i] != 0; });
+            if (!forced && std::abs(result.distortion.mu[s]) > 1) free[own.faces[s]] = 1;
+        }
+        std::vector<int> faces;
+        for (const int f : result.distortion.flipped)
+            if (free[f]) faces.push_back(f);
+        return faces;
+    }
+
+    /// k conj(φ)/|φ| of an extremal map at the elements' samples; nothing where these are others than the map's.
+    std::optional<Eigen::VectorXcd> coefficient_of(const ExtremalMap& extremal) const {
+        const Operators& own = elements.operators;
+        if (extremal.split || extremal.phi.size() != own.sample_count() || own.sample_count() != own.face_count)
+            return {};
+        Eigen::VectorXcd mu = Eigen::VectorXcd::Zero(extremal.phi.size());
+        for (Eigen::Index s = 0; s < mu.size(); ++s)
+            if (const double size = std::abs(extremal.phi[s]); size > 0)
+                mu[s] = extremal.k * std::conj(extremal.phi[s]) / size;
+        return mu;
+    }
+
+    /// The way by the plane adds the errors of a chart. Steps along the surface itself to the coefficient of the
+    /// differential flip nothing: where that spreads |μ| less it is the result. Where the way by the plane flips faces,
+    /// they begin at the map of least maximum.
+    void follow_differential(const Target& target, const Mesh& begin, const TargetConstraints& held,
+                             const ExtremalMap& extremal, Deformation& result) const {
+        std::optional<Eigen::VectorXcd> wanted = coefficient_of(extremal);
+        if (!wanted) return;
+        try {
+            const bool upright = result.distortion.flipped.empty();
+            const Surface start(upright ? with_positions(begin, result.positions) : begin);
+            TangentialMap map(start, elements.operators, target, held, 0);
+            if (!map.folded().empty()) return;
+            if (!upright) {  // from the least maximum, which is nearer than the beginning
+                relax(map, 2);
+                result = measured(target, map.points(), begin);
+            }
+            map.set_damping(kDamping);
+            map.set_wanted(std::move(*wanted));
+            map.relax(2, kDifferentialSteps, kDifferentialTolerance);
+            Deformation along = measured(target, map.points(), begin);
+            if (along.distortion.standard_deviation < result.distortion.standard_deviation) result = std::move(along);
+        } catch (const Error& error) {  // then it stays as it is
+            if (error.cause() == Cause::cancelled) throw;
+        }
+    }
+
     /// By way of the plane: the extremal map, or the QC iteration. Nothing where there is none that does not fold; why
     /// is among the warnings.
-    std::optional<Deformation> by_held_map(const Target& target, const Mesh& begin, Warnings& warnings) {
+    std::optional<Deformation> by_held_map(const Target& target, const Mesh& begin, const TargetConstraints& held,
+                                           Warnings& warnings) {
         const char* const what = options.goal == DeformGoal::dilatation ? "the extremal map" : "the QC iteration";
         std::string reason = maps.refusal();
         if (reason.empty()) try {
@@ -202,15 +262,18 @@ struct DeformSolver::Parts {
                                   ? maps.extremal(begin, options.progress)
                                   : maps.uniform(begin, kUniformSteps, options.progress);
                 Deformation result = measured(target, nearest_points(target, map.positions), begin);
-                if (result.distortion.flipped.empty()) {
+                if (map.extremal) follow_differential(target, begin, held, *map.extremal, result);
+                const std::vector<int> flipped = flipped_freely(result);
+                if (flipped.empty()) {
                     result.goal = options.goal;
                     result.steps = map.steps;
+                    result.settled = map.settled;
                     result.factorizations = map.factorizations + surfaces.factorization_count();
                     result.extremal = std::move(map.extremal);
                     result.warnings = std::move(map.warnings);
                     return result;
                 }
-                reason = "it flips " + std::to_string(result.distortion.flipped.size()) + " faces on the surface";
+                reason = "it flips " + std::to_string(flipped.size()) + " faces on the surface";
             } catch (const Error& error) {
                 if (error.cause() == Cause::cancelled) throw;
                 reason = error.what();
@@ -235,8 +298,9 @@ struct DeformSolver::Parts {
             throw Error(Cause::not_solved, sentence, "move the handles in smaller steps",
                         {Things::faces, std::move(faces)});
         }
-        relax(map, first_power);
+        const bool settled = relax(map, first_power);
         Deformation result = measured(target, map.points(), begin);
+        result.settled = settled;
         result.goal = options.goal == DeformGoal::spread ? DeformGoal::spread : DeformGoal::largest;
         result.steps = map.steps();
         result.factorizations = map.factorization_count() + surfaces.factorization_count();
@@ -247,7 +311,7 @@ struct DeformSolver::Parts {
     Deformation along(const Target& target, const Mesh& begin, const TargetConstraints& held, double first_power) {
         if (options.goal == DeformGoal::largest) return by_powers(target, begin, held, first_power);
         Warnings warnings;
-        std::optional<Deformation> direct = by_held_map(target, begin, warnings);
+        std::optional<Deformation> direct = by_held_map(target, begin, held, warnings);
         if (direct && options.goal == DeformGoal::dilatation) return std::move(*direct);
         try {
             Deformation result = by_powers(target, begin, held, first_power);

@@ -62,7 +62,8 @@ struct Deformation {
     double area_ratio = 1;                  ///< of the surface to the source
     std::vector<std::array<int, 2>> folds;  ///< edges at which the result folds and the source does not
     int steps = 0, factorizations = 0;
-    bool warm = false;  ///< it went on from the last one
+    bool settled = false;  ///< what is made small hardly changed in the end
+    bool warm = false;     ///< it went on from the last one
     Warnings warnings;
 };
 

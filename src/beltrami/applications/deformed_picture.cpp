@@ -124,7 +124,7 @@ class SmoothInverse {
             for (Eigen::Index i = 0; i < rows.rows(); ++i) {
                 const int w = around[static_cast<std::size_t>(i)];
                 const Complex d = (map_[w] - map_[v]) / size, z = own[w] - own[v];
-                const double x = d.real(), y = d.imag(), weight = 1 / (0.1 + std::norm(d));
+                const double x = d.real(), y = d.imag(), weight = 1 / (1 + std::norm(d));
                 rows.row(i).head<3>() << (held ? 0.0 : 1.0), x, y;
                 if (quadratic) rows.row(i).tail<3>() << x * x, x * y, y * y;
                 wanted.row(i) << z.real(), z.imag();

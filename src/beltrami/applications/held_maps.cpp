@@ -123,6 +123,7 @@ HeldMap HeldMaps::extremal(const Mesh& image, const Progress& progress) {
     }
     result.positions = positions_of(image, plane, result.extremal->map);
     result.steps = result.extremal->iterations;
+    result.settled = result.extremal->termination == Termination::converged;
     result.factorizations = result.extremal->factorizations + plane.factorizations;
     result.warnings = plane.warnings;
     append(result.warnings, result.extremal->warnings);
@@ -139,6 +140,7 @@ HeldMap HeldMaps::uniform(const Mesh& image, int max_iterations, const Progress&
     HeldMap result;
     result.positions = positions_of(image, plane, map.map);
     result.steps = map.iterations;
+    result.settled = map.converged;
     result.factorizations = map.factorizations + plane.factorizations;
     result.warnings = plane.warnings;
     return result;

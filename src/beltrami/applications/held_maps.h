@@ -15,6 +15,7 @@ struct HeldMap {
     Positions positions;                  ///< #V×3 on the mesh
     std::optional<ExtremalMap> extremal;  ///< to the plane, or to the mesh's circle domain; see HeldMaps::extremal
     int steps = 0, factorizations = 0;
+    bool settled = false;
     Warnings warnings;
 };
 

@@ -23,7 +23,8 @@ namespace {
 constexpr double kNeedle = 0.999;  // |μ| of a face from which on steps begin strongly damped
 constexpr double kNeedleDamping = 1e5;
 constexpr int kFirstSteps = 6, kPowerSteps = 8, kRounds = 25, kStepsOfRound = 2;
-constexpr double kGain = 0.01;  // of the mean of ψ^{p/2}: what two steps have to bring for two more
+constexpr int kAttempts = 4, kFrozenRings = 1;  // of vertices that stay from the second attempt on
+constexpr double kGain = 0.003;                 // of the mean of ψ^{p/2}: what two steps have to bring for two more
 constexpr double kTolerance = 1e-3, kRoundTolerance = 1e-4;
 
 double diagonal_of(const Mesh& mesh) {
@@ -122,7 +123,7 @@ void warn_of_tips(RemeshedSurface& result) {
 
 /// Two steps at a time, vertices drawn back between them that have gone too far or around which faces oppose the
 /// surface that did not before, until that is so nowhere and steps gain little. The best map of those that keep both is
-/// the result.
+/// the result; where there is none, the vertices that are to blame stay where they are, and all begins again.
 class Rounds {
   public:
     Rounds(const Surface& surface, const Operators& reference, const MeshTarget& target, const RemeshOptions& options)
@@ -133,24 +134,29 @@ class Rounds {
           allowed_(options.max_distance * diagonal_of(surface.mesh)),
           opposed_before_(opposed_faces(surface.mesh, target)) {}
 
-    void run(TangentialMap& map, RemeshedSurface& result) const {
+    /// @return vertices that are still too far away, or in faces that newly oppose the surface; none where all is kept
+    std::vector<int> run(TangentialMap& map, RemeshedSurface& result) const {
         std::optional<TargetMap> best;
+        std::vector<int> bad;
         double least = std::numeric_limits<double>::infinity(), last = least;
         for (; result.rounds < kRounds; ++result.rounds) {
             const double mean = mean_power(map.coefficients());
-            const std::vector<int> opposing = around_newly_opposed(map.positions());
-            const bool kept = map.hold_within(allowed_).vertices == 0 && opposing.empty();
-            map.draw_back(opposing);
-            if (kept && mean < least) {
+            bad = around_newly_opposed(map.positions());
+            map.draw_back(bad);
+            const std::vector<int> strayed = map.hold_within(allowed_).vertices;
+            bad.insert(bad.end(), strayed.begin(), strayed.end());
+            if (bad.empty() && mean < least) {
                 least = mean;
                 best = map.map();
             }
-            if (kept && !(mean < (1 - kGain) * last)) break;
+            if (bad.empty() && !(mean < (1 - kGain) * last)) break;
             last = mean;
             map.relax(options_.power, kStepsOfRound, kRoundTolerance);
         }
         result.settled = best.has_value();
-        if (best) map.return_to(std::move(*best));
+        if (!best) return bad;
+        map.return_to(std::move(*best));
+        return {};
     }
 
   private:
@@ -184,6 +190,29 @@ class Rounds {
     double allowed_;
     std::vector<int> opposed_before_;  // ascending
 };
+
+/// Vertices within some rings of others.
+void freeze_around(const Surface& surface, const std::vector<int>& vertices, std::vector<char>& frozen) {
+    for (const int v : vertices) frozen[v] = 1;
+    for (int ring = 0; ring < kFrozenRings; ++ring) {
+        std::vector<char> wider = frozen;
+        for (const auto& [a, b] : surface.topology.edges)
+            if (frozen[a] || frozen[b]) wider[a] = wider[b] = 1;
+        frozen = std::move(wider);
+    }
+}
+
+/// The same with further vertices that stay.
+TargetConstraints with_frozen(TargetConstraints constraints, const std::vector<char>& frozen) {
+    std::erase_if(constraints.sliding,
+                  [&](const TargetConstraints::Slide& slide) { return frozen[slide.vertex] != 0; });
+    std::vector<char> fixed = frozen;
+    for (const int v : constraints.fixed) fixed[v] = 1;
+    constraints.fixed.clear();
+    for (std::size_t v = 0; v < fixed.size(); ++v)
+        if (fixed[v]) constraints.fixed.push_back(static_cast<int>(v));
+    return constraints;
+}
 
 RemeshedSurface fast(const Surface& surface, const CornerElements& elements, const MeshTarget& target,
                      const TargetConstraints& constraints) {
@@ -228,18 +257,26 @@ RemeshedSurface remesh(const Surface& surface, const Positions& reference, const
     const TargetConstraints constraints = constraints_of(surface, options);
     if (options.fast) return fast(surface, elements, target, constraints);
 
-    TangentialMap map(surface, elements.operators, target, constraints, options.even_size);
-    map.set_progress(options.progress);
-    if (options.sizing) map.scale_areas(area_factors(elements.operators, *options.sizing));
-    if (has_needles(map.coefficients())) map.set_damping(kNeedleDamping);
     RemeshedSurface result;
-    map.relax(2, kFirstSteps, kTolerance);
-    if (options.power > 2) map.relax(options.power, kPowerSteps, kTolerance);
-    Rounds(surface, elements.operators, target, options).run(map, result);
-    result.positions = map.positions();
-    result.places = places_of(map.points());
-    result.steps = map.steps();
-    result.factorizations = map.factorization_count();
+    const Rounds rounds(surface, elements.operators, target, options);
+    std::vector<char> frozen(static_cast<std::size_t>(surface.mesh.vertex_count()), 0);
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+        const TargetConstraints held = with_frozen(constraints, frozen);
+        TangentialMap map(surface, elements.operators, target, held, options.even_size);
+        map.set_progress(options.progress);
+        if (options.sizing) map.scale_areas(area_factors(elements.operators, *options.sizing));
+        if (has_needles(map.coefficients())) map.set_damping(kNeedleDamping);
+        map.relax(2, kFirstSteps, kTolerance);
+        if (options.power > 2) map.relax(options.power, kPowerSteps, kTolerance);
+        result.rounds = 0;
+        const std::vector<int> bad = rounds.run(map, result);
+        result.positions = map.positions();
+        result.places = places_of(map.points());
+        result.steps += map.steps();
+        result.factorizations += map.factorization_count();
+        if (bad.empty()) break;
+        freeze_around(surface, bad, frozen);
+    }
     conclude(surface, target, result);
     warn_of_distance(options, result);
     warn_of_tips(result);

@@ -80,6 +80,7 @@ TangentialMap::TangentialMap(const Surface& start, const Operators& reference, c
       map_(target_map(start, target, constraints, start.mesh.positions)),
       even_size_(even_size),
       weights_(of_unit_sum(reference.weights)),
+      wanted_(Eigen::VectorXcd::Zero(reference.sample_count())),
       area_(reference.sample_count()),
       cusp_(static_cast<std::size_t>(reference.sample_count()), 0),
       own_normal_(Positions::Zero(reference.sample_count(), 3)),
@@ -342,7 +343,7 @@ void TangentialMap::damp(double length) {
 }
 
 int TangentialMap::relax(double power, int max_steps, double tolerance) {
-    BarrierEnergy energy(Eigen::VectorXcd::Zero(operators_.sample_count()), operators_.weights, power);
+    BarrierEnergy energy(wanted_, operators_.weights, power);
     int futile = 0;
     for (int count = 1; count <= max_steps; ++count) {
         const Taken taken = step(energy);
@@ -369,7 +370,7 @@ TangentialMap::Strayed TangentialMap::hold_within(double distance) {
         kDefaultGrain / 16);
     struct OfTriangle {
         std::array<double, 3> middles;  // of the edges at the start, to the image
-        double centre;                  // of the image, to the target
+        double back;                    // the farthest middle of the image, to the target
     };
     std::vector<OfTriangle> of_triangles(triangles_.size());
     parallel_for(
@@ -380,21 +381,24 @@ TangentialMap::Strayed TangentialMap::hold_within(double distance) {
                 for (int j = 0; j < 3; ++j)
                     of_triangles[t].middles[j] =
                         image.nearest(0.5 * (start_.mesh.point(v[j]) + start_.mesh.point(v[(j + 1) % 3]))).distance;
-                const Vector3 centre = (points.row(v[0]) + points.row(v[1]) + points.row(v[2])).transpose() / 3;
-                of_triangles[t].centre = (target_.nearest(centre).position - centre).norm();
+                const auto from_target = [&](const Vector3& p) { return (target_.nearest(p).position - p).norm(); };
+                double& back = of_triangles[t].back;
+                back = from_target((points.row(v[0]) + points.row(v[1]) + points.row(v[2])).transpose() / 3);
+                for (int j = 0; j < 3; ++j)
+                    back =
+                        std::max(back, from_target(0.5 * (points.row(v[j]) + points.row(v[(j + 1) % 3])).transpose()));
             }
         },
         kDefaultGrain / 16);
     for (std::size_t t = 0; t < triangles_.size(); ++t)
         for (int j = 0; j < 3; ++j) {
             double& at = away[triangles_[t][j]];
-            at = std::max(
-                {at, of_triangles[t].middles[j], of_triangles[t].middles[(j + 2) % 3], of_triangles[t].centre});
+            at = std::max({at, of_triangles[t].middles[j], of_triangles[t].middles[(j + 2) % 3], of_triangles[t].back});
         }
-    Strayed strayed{0, away.maxCoeff()};
+    Strayed strayed{{}, away.maxCoeff()};
     for (int v = 0; v < vertices; ++v) {
         if (!(away[v] > distance)) continue;
-        ++strayed.vertices;
+        strayed.vertices.push_back(v);
         stiffness_[v] = std::max(kStiffnessFactor * stiffness_[v], kFirstStiffness);
     }
     return strayed;

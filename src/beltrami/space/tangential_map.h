@@ -42,6 +42,9 @@ class TangentialMap {
     /// @throw Error not_solved if the start folds; cancelled
     int relax(double power, int max_steps, double tolerance);
 
+    /// The coefficient that the map ought to have (#S, in the reference's frames, below 1) instead of 0: ψ is then that
+    /// of the distance from it.
+    void set_wanted(Eigen::VectorXcd coefficient) { wanted_ = std::move(coefficient); }
     /// How strongly steps are damped at first: 1; for needles 1e5.
     void set_damping(double damping) { damping_ = damping; }
     /// What J₀ is multiplied by (#S), for faces that ought to grow or shrink.
@@ -50,11 +53,11 @@ class TangentialMap {
     void set_progress(Progress progress) { progress_ = std::move(progress); }
 
     struct Strayed {
-        int vertices = 0;     ///< around which start and image are farther apart than allowed
-        double distance = 0;  ///< the largest, both ways, at vertices, middles of edges and of faces
+        std::vector<int> vertices;  ///< around which start and image are farther apart than allowed
+        double distance = 0;        ///< the largest, both ways, at vertices, middles of edges and of faces
     };
     /// Raises κ where the start (its vertices and the middles of its edges) is farther from the image, or the image
-    /// (its middles of triangles) from the target, than a distance.
+    /// (its middles of edges and triangles) from the target, than a distance.
     Strayed hold_within(double distance);
     /// Raises κ of vertices, and draws them in every direction, not only off their faces' planes.
     void draw_back(std::span<const int> vertices);
@@ -99,6 +102,7 @@ class TangentialMap {
     double even_size_, damping_ = 1;
     Progress progress_;
     std::vector<double> weights_;  // #S, of sum 1
+    Eigen::VectorXcd wanted_;      // #S
     Eigen::VectorXd area_;         // #S J₀
     std::vector<char> cusp_;       // #S
     Positions own_normal_;         // #S×3 of cusps

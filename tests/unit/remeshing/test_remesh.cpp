@@ -244,6 +244,31 @@ TEST(Remesh, APuncturedTorus) {
     EXPECT_LT(angles.mean_deviation, 1.05 * 6.2);
     EXPECT_LT(two.distance, 1.4 * 0.003);
     EXPECT_TRUE(two.unresolved.empty());
+    options.power = 8;
+    const RemeshedSurface eight = remesh(surface, regular_shapes(mesh.faces), options);
+    const AngleStatistics worst = angles_of(mesh, eight.positions);
+    EXPECT_GT(worst.smallest, 0.95 * 39.9);
+    EXPECT_GT(worst.one_percent, 0.95 * 45.0);
+    EXPECT_LT(worst.mean_deviation, 1.05 * 7.2);
+    EXPECT_LT(eight.distance, 1.4 * 0.003);
+    EXPECT_TRUE(eight.unresolved.empty());
+}
+
+// Horns and ears so coarse that faces oppose the surface already: there are not more of them afterwards, and they are
+// named.
+TEST(Remesh, LargeACowDoesNotGetMoreOpposedFaces) {
+    const auto path = test::real_mesh("cow.off");
+    if (path.empty()) GTEST_SKIP();
+    const Surface surface(read_mesh(path.string()).mesh);
+    RemeshOptions options;
+    options.power = 2;
+    const RemeshedSurface result = remesh(surface, regular_shapes(surface.mesh.faces), options);
+    EXPECT_FALSE(result.opposed_before.empty());
+    EXPECT_LE(result.unresolved.size(), result.opposed_before.size());
+    EXPECT_LT(result.distance, 1.4 * 0.003);
+    ASSERT_FALSE(result.warnings.empty());
+    EXPECT_EQ(result.warnings.back().where.indices, result.unresolved);
+    EXPECT_LT(angles_of(surface.mesh, result.positions).mean_deviation, angle_statistics(surface.mesh).mean_deviation);
 }
 
 }  // namespace
