@@ -20,10 +20,7 @@ class DistanceCommand final : public Command {
     explicit DistanceCommand(CLI::App& parent) {
         CLI::App* app = parent.add_subcommand(
             "distance", "Teichmueller's distance ½ log K* between shapes of one topology, with its bracket");
-        app->add_option(
-               "MESH", meshes_,
-               "two or more: OBJ, PLY, OFF or STL, of genus 0 with as many boundary loops, or closed surfaces of "
-               "one genus")
+        app->add_option("MESH", meshes_, "two or more: OBJ, PLY, OFF or STL, of one genus with as many boundary loops")
             ->required()
             ->expected(2, 1 << 20);
         outer_option_ =
@@ -55,6 +52,12 @@ class DistanceCommand final : public Command {
         for (const std::string& mesh : meshes_) {
             MeshInput input = options_.load(mesh, record.warnings);
             try {
+                const Topology shape = topology(input.mesh);
+                if (shape.genus > 1 || (shape.genus == 1 && !shape.boundary_loops.empty())) {
+                    Warnings cut;
+                    cut_into_triangles(input, cut);
+                    for (const Warning& warning : cut) record.warnings.push_back(prefixed(mesh, warning));
+                }
                 surfaces.emplace_back(std::move(input.mesh));
             } catch (const Error& error) {
                 throw Error(error.cause(), mesh + ": " + error.what(), {}, error.where());
@@ -64,9 +67,11 @@ class DistanceCommand final : public Command {
             for (const Warning& finding : findings) record.warnings.push_back(prefixed(mesh, finding));
         }
         record.source = source_record(surfaces[0]);
-        record.distances = genus_of_closed(surfaces[0]) == 1  ? between_tori(surfaces)
-                           : genus_of_closed(surfaces[0]) > 1 ? between_handles(surfaces)
-                                                              : between_domains(surfaces);
+        const Topology& first = surfaces[0].topology;
+        const bool torus = first.genus == 1 && first.boundary_loops.empty();
+        record.distances = first.components != 1 || first.genus == 0 ? between_domains(surfaces)
+                           : torus                                   ? between_tori(surfaces)
+                                                                     : between_handles(surfaces);
         if (!picture_.empty())
             write_atomically(picture_,
                              render_dendrogram(names(), record.distances->matrix.distance, record.distances->merges));
@@ -83,19 +88,14 @@ class DistanceCommand final : public Command {
     }
 
   private:
-    /// 0 of a surface that is none.
-    static int genus_of_closed(const Surface& surface) {
-        const bool closed = surface.topology.components == 1 && surface.topology.boundary_loops.empty();
-        return closed ? surface.topology.genus : 0;
-    }
-
     void refuse(std::initializer_list<const CLI::Option*> options, const char* why) const {
         for (const CLI::Option* option : options)
             if (option->count() > 0) throw Error(Cause::bad_option, option->get_name() + why, "leave it out");
     }
 
     DistancesRecord between_handles(const std::vector<Surface>& surfaces) {
-        refuse({outer_option_, match_option_}, " is for boundary loops, and closed surfaces have none");
+        refuse({outer_option_, match_option_},
+               " is for surfaces of genus 0: with handles, boundary loops go to the nearest");
         DistanceMatrix matrix;
         {
             Progress progress(!common_.quiet);
@@ -117,7 +117,7 @@ class DistanceCommand final : public Command {
     }
 
     DistancesRecord between_domains(const std::vector<Surface>& surfaces) {
-        refuse({align_option_}, " is for closed surfaces with handles");
+        refuse({align_option_}, " is for surfaces with handles");
         Correspondence wanted;
         wanted.outer_loop = outer_;
         wanted.match_by = match_ == "size" ? MatchBy::size : MatchBy::position;

@@ -48,8 +48,7 @@ std::pair<int, std::string> split_twist(const std::string& text) {
 
 CLI::Option* add_align_option(CLI::App& app, std::string& align) {
     return app
-        .add_option("--align", align,
-                    "of closed surfaces with handles: lay SOURCE on TARGET before nearest points are taken")
+        .add_option("--align", align, "of surfaces with handles: lay SOURCE on TARGET before nearest points are taken")
         ->check(CLI::IsMember({"none", "rigid", "similarity"}))
         ->capture_default_str();
 }
@@ -64,8 +63,8 @@ void MarkingOptions::add_to(CLI::App& app) {
     add_align_option(app, align_);
     app.add_option(
            "--marking", marking_,
-           "of closed surfaces with handles: the class of maps that take vertices to the nearest points, or, of "
-           "tori, that of least dilatation")
+           "of surfaces with handles: the class of maps that take vertices to the nearest points, or search: of tori "
+           "that of least dilatation, of closed surfaces of higher genus that of least energy from several starts")
         ->check(CLI::IsMember({"closest", "search"}))
         ->capture_default_str();
     app.add_option(
@@ -99,6 +98,7 @@ Alignment MarkingOptions::alignment() const {
 
 HandleMarking MarkingOptions::load(const MeshInput& source, const MeshInput& target) const {
     HandleMarking marking;
+    if (searches()) marking.search.emplace();
     marking.alignment = alignment();
     for (const auto& [of_source, of_target] : loops_) {
         marking.paths.push_back(read_path(of_source, source));

@@ -65,8 +65,8 @@ void require_indices(const Mesh& mesh) {
         if (v < 0 || v >= mesh.vertex_count()) require_sound(mesh);
 }
 
-/// The mesh of which some faces were cut, with a warning.
-void take(SplitMesh split, const char* one, const char* many, MeshInput& input, Warnings& warnings) {
+/// Puts the mesh in place of the one that was read, with a warning of what was cut.
+void replace_by(SplitMesh split, const char* one, const char* many, MeshInput& input, Warnings& warnings) {
     if (split.cut.empty()) return;
     warnings.push_back({WarningKind::mended,
                         counted(split.cut.size(), one, many) + " cut into triangles; the first is face " +
@@ -80,13 +80,33 @@ void take(SplitMesh split, const char* one, const char* many, MeshInput& input, 
 }  // namespace
 
 void cut_folded_quads(MeshInput& input, Warnings& warnings) {
-    take(split_unusable_faces(input.mesh), "quad that folds was", "quads that fold were", input, warnings);
+    replace_by(split_unusable_faces(input.mesh), "quad that folds was", "quads that fold were", input, warnings);
 }
 
 void cut_folded_polygons(MeshInput& input, Warnings& warnings) {
     require_indices(input.mesh);
-    take(split_folded_polygons(input.mesh), "face that is not convex was", "faces that are not convex were", input,
-         warnings);
+    replace_by(split_folded_polygons(input.mesh), "face that is not convex was", "faces that are not convex were",
+               input, warnings);
+}
+
+void take_split(MeshInput& input, const SplitProblem& split) {
+    std::vector<std::vector<int>> rows;
+    for (int v = 0; v < input.mesh.vertex_count(); ++v) rows.push_back({v});
+    for (const std::array<int, 4>& parents : split.parents) {
+        rows.emplace_back();
+        for (const int parent : parents)
+            if (parent >= 0) rows.back().push_back(parent);
+    }
+    input.attributes = carried(input.attributes, rows, split.face_parents);
+    input.mesh = split.mesh;
+    input.vertices.resize(rows.size(), -1);
+    std::vector<int> faces;
+    for (const int f : split.face_parents) faces.push_back(input.faces[f]);
+    input.faces = std::move(faces);
+}
+
+void cut_into_triangles(MeshInput& input, Warnings& warnings) {
+    replace_by(split_into_triangles(input.mesh), "face was", "faces were", input, warnings);
 }
 
 double unit_of(double size) {

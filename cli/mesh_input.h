@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <beltrami/constraints/prescribed_split.h>
 #include <beltrami/io/read_mesh.h>
 
 #include "hints.h"
@@ -32,6 +33,11 @@ struct MeshInput {
 
 /// Cuts the faces that no map can be measured on as they are, quads that fold, into triangles, with a warning.
 void cut_folded_quads(MeshInput& input, Warnings& warnings);
+/// Cuts all faces that are not triangles into such, with a warning.
+void cut_into_triangles(MeshInput& input, Warnings& warnings);
+
+/// The mesh with edges split, its attributes carried along.
+void take_split(MeshInput& input, const SplitProblem& split);
 
 /// The same of polygons that are not convex at a corner, where polygons are kept.
 void cut_folded_polygons(MeshInput& input, Warnings& warnings);

@@ -30,8 +30,7 @@ class Register final : public Command {
             "carry a surface onto another one by the map of least dilatation that takes landmarks to their places, or "
             "handles to handles");
         app->add_option("SOURCE", source_,
-                        "OBJ, PLY, OFF or STL; one component of genus 0, closed or with a boundary, or closed of any "
-                        "genus")
+                        "OBJ, PLY, OFF or STL; one component of any genus, closed or with a boundary")
             ->required();
         app->add_option("TARGET", target_, "likewise, of the same genus and with as many boundary loops")->required();
         app->add_option("-o,--output", output_,
@@ -88,12 +87,23 @@ class Register final : public Command {
         if (!start_.empty()) options.start = places_near(start_points(source_input.mesh, target_input), target_input);
         const Surface source = surface("SOURCE", source_input), target = surface("TARGET", target_input);
         record_.source = source_record(source);
-        if (is_closed(source) && source.topology.genus > 0) {
+        const int loops = static_cast<int>(source.topology.boundary_loops.size());
+        // Of genus 0 with holes there are two ways: circle domains, and here, where a class is told.
+        const bool holes_in_a_class =
+            source.topology.genus == 0 && loops > 2 && (!marking_.given().empty() || !start_.empty());
+        if (source.topology.components == 1 && (source.topology.genus > 0 || holes_in_a_class)) {
             if (!landmarks.empty() || !options.waypoints.empty())
                 throw Error(Cause::bad_option,
-                            "--landmarks are for surfaces of genus 0: no extremal map of closed "
-                            "surfaces with handles is known here that takes points to points",
+                            holes_in_a_class
+                                ? "--landmarks go with the class of circle domains, and another one is told"
+                                : "--landmarks are for surfaces of genus 0: no extremal map of surfaces "
+                                  "with handles is known here that takes points to points",
                             "leave them out; the class is told by --loop, --start-map or --twist");
+            if (outer_ != 0 || target_outer_ != 0)
+                throw Error(
+                    Cause::bad_option,
+                    "--outer and --target-outer are for circle domains: here boundary loops go to those nearest",
+                    "leave them out");
             if (least_lp())
                 throw Error(Cause::bad_option, "least Lᵖ maps and curves are registered on surfaces of genus 0",
                             "leave them out, or follow a norm with beltrami flow --onto TARGET");
@@ -101,7 +111,8 @@ class Register final : public Command {
             return 0;
         }
         if (const std::string stray = marking_.given(); !stray.empty())
-            throw Error(Cause::bad_option, stray + " is for closed surfaces with handles, and SOURCE is none",
+            throw Error(Cause::bad_option,
+                        stray + " is for surfaces with handles or with three holes and more, and SOURCE is none",
                         "leave it out");
         if (is_closed(source) != is_closed(target))
             throw Error(Cause::bad_mesh, "one of SOURCE and TARGET is closed and the other has a boundary",
@@ -243,34 +254,54 @@ class Register final : public Command {
         return places;
     }
 
-    /// Closed surfaces of genus 1 and more.
+    /// Surfaces of genus 1 and more, and of genus 0 with holes.
     void with_handles(const Surface& source, const Surface& target, const MeshInput& source_input,
                       const MeshInput& target_input) {
-        if (target.topology.genus != source.topology.genus || !is_closed(target))
-            throw Error(
-                Cause::bad_mesh,
-                fmt::format("SOURCE is a closed surface of genus {}, and TARGET {} of genus {}", source.topology.genus,
-                            is_closed(target) ? "one" : "a surface with a boundary", target.topology.genus),
-                "take surfaces of one topology");
+        const auto topology = [](const Surface& surface) {
+            const std::size_t loops = surface.topology.boundary_loops.size();
+            return fmt::format(
+                "{}genus {}{}", loops == 0 ? "a closed surface of " : "", surface.topology.genus,
+                loops == 0 ? std::string() : " with " + counted(loops, "boundary loop", "boundary loops"));
+        };
+        if (topology(source) != topology(target))
+            throw Error(Cause::bad_mesh, fmt::format("SOURCE is {}, and TARGET {}", topology(source), topology(target)),
+                        "take surfaces of one topology");
         HandleMarking marking = marking_.load(source_input, target_input);
         if (!start_.empty()) marking.start = start_points(source_input.mesh, target_input);
-        if (source.topology.genus == 1) {
-            const TorusMap found =
-                register_tori(source, target, marking_.searches() ? std::nullopt : std::optional(std::move(marking)));
-            append(record_.warnings, found.warnings);
-            record_.registration = registration_record(found, target_);
-            RegistrationPage page = page_of(found, found.distortion);
-            if (wants_page()) {
-                const FlatTorus torus = flat_torus(source);
-                page.domain = page_domain(source, torus);
-                if (found.k > kConformal) page.map.differential = page_differential(source, torus, found.mu);
-            }
-            conclude_with(found, found, std::move(page), source_input, target_input);
+        if (source.topology.genus > 1 || !is_closed(source)) {
+            onto_hyperbolic(triangles("SOURCE", source_input), triangles("TARGET", target_input), marking);
             return;
         }
-        if (marking_.searches())
-            throw Error(Cause::bad_option, "--marking search is for tori", "tell the class by --loop or --start-map");
+        const TorusMap found =
+            register_tori(source, target, marking_.searches() ? std::nullopt : std::optional(std::move(marking)));
+        append(record_.warnings, found.warnings);
+        record_.registration = registration_record(found, target_);
+        RegistrationPage page = page_of(found, found.distortion);
+        if (wants_page()) {
+            const FlatTorus torus = flat_torus(source);
+            page.domain = page_domain(source, torus);
+            if (found.k > kConformal) page.map.differential = page_differential(source, torus, found.mu);
+        }
+        conclude_with(found, found, std::move(page), source_input, target_input);
+    }
+
+    /// The mesh in triangles.
+    MeshInput triangles(const char* name, const MeshInput& input) {
+        MeshInput result = input;
+        Warnings warnings;
+        cut_into_triangles(result, warnings);
+        for (Warning& warning : warnings) record_.warnings.push_back(prefixed(name, std::move(warning)));
+        return result;
+    }
+
+    void onto_hyperbolic(const MeshInput& source_input, const MeshInput& target_input, HandleMarking marking) {
+        const Surface source(source_input.mesh), target(target_input.mesh);
         const HyperbolicShape from(source), to(target);
+        if (marking.search)
+            marking.search->progress = [&](int done, int all) {
+                if (!common_.quiet) fmt::print(stderr, "start {} of {}\n", done, all);
+                return true;
+            };
         HyperbolicMapOptions options;
         if (max_iterations_) options.max_iterations = *max_iterations_;
         Progress progress(!common_.quiet);
@@ -284,11 +315,16 @@ class Register final : public Command {
         RegistrationPage page = page_of(found.map, found.map.distortion);
         page.history = found.map.history;
         if (wants_page()) {
-            page.domain = page_domain(source, from.metric(), hyperbolic_domain(source, from.metric()));
+            page.domain = page_domain(from.surface(), from.metric(), hyperbolic_domain(from.surface(), from.metric()));
             if (!found.map.differential.zero())
-                page.map.differential = page_differential(source, found.map.phi, found.map.differential);
+                page.map.differential = page_differential(from.surface(), found.map.phi, found.map.differential);
         }
-        conclude_with(found.map, found.map, std::move(page), source_input, target_input);
+        MeshInput mapped = source_input;
+        if (from.split()) {
+            record_.split = split_record(*from.split(), source.mesh.vertex_count());
+            take_split(mapped, *from.split());
+        }
+        conclude_with(found.map, found.map, std::move(page), mapped, target_input);
     }
 
     std::string source_, target_, output_, start_, places_;

@@ -38,8 +38,9 @@ class Uniformize final : public Command {
             "disk "
             "to the round disk, a surface with holes to the disk less round holes, with its moduli; a closed surface "
             "of "
-            "genus 2 or more to a fundamental polygon of the hyperbolic plane, in the unit disk");
-        app->add_option("SOURCE", source_, "OBJ, PLY, OFF or STL; one component of genus 0, or closed")->required();
+            "genus 2 or more, or one with handles and a boundary, to a fundamental polygon of the hyperbolic plane, in "
+            "the unit disk");
+        app->add_option("SOURCE", source_, "OBJ, PLY, OFF or STL; one component of any genus")->required();
         output_.add_to(*app);
         app->add_option("--outer", outer_,
                         "the boundary loop, numbered as `beltrami info` prints it, that goes to the unit circle; "
@@ -52,10 +53,9 @@ class Uniformize final : public Command {
                "the first one that is not the outer loop")
             ->check(CLI::NonNegativeNumber)
             ->type_name("h");
-        app->add_option(
-               "--loops", loops_,
-               "of closed surfaces with handles: write short closed paths of vertices to PREFIX0.txt … and, of "
-               "genus 2 or more, generators of the fundamental group to PREFIX_generator0.txt …")
+        app->add_option("--loops", loops_,
+                        "of surfaces with handles: write short closed paths of vertices to PREFIX0.txt … and, of "
+                        "genus 2 or more, generators of the fundamental group to PREFIX_generator0.txt …")
             ->type_name("PREFIX");
         sphere_.add_to(*app);
         metric_.add_to(*app);
@@ -83,11 +83,11 @@ class Uniformize final : public Command {
         add_findings(source.findings, record.warnings);
         record.source = source_record(source, input.unit);
         check(source);
-        if (!closed)
+        if (!closed && source.topology.genus == 0)
             to_circles(source, input, start);
         else if (source.topology.genus == 0)
             to_sphere(source, input, start);
-        else if (source.topology.genus == 1)
+        else if (closed && source.topology.genus == 1)
             to_torus(source, input, start);
         else
             to_hyperbolic_plane(source, input, start);
@@ -141,6 +141,7 @@ class Uniformize final : public Command {
         record_.solve = direct_solve(found.factorizations, start);
         record_.periods =
             periods_record(found.homology, found.generators, Eigen::MatrixXcd::Constant(1, 1, found.tau), input.unit);
+        short_loops_ = found.homology.loops;
         record_.torus = torus_record(found);
         finish_layout(source, input, found.layout, found.distortion, [&] { return page_domain(source, found); });
     }
@@ -149,11 +150,17 @@ class Uniformize final : public Command {
         output_.check_layout();
         const HyperbolicSurface metric = hyperbolic_surface(source);
         const HyperbolicDomain found = hyperbolic_domain(source, metric);
-        const HarmonicBasis basis = harmonic_basis(source);
-        const PeriodMatrix periods = period_matrix(source, basis);
-        record_.solve = direct_solve(metric.factorizations + basis.factorizations, start);
+        if (metric.has_boundary()) {
+            record_.solve = direct_solve(metric.factorizations, start);
+            short_loops_ = homology_basis(source).loops;
+        } else {
+            const HarmonicBasis basis = harmonic_basis(source);
+            const PeriodMatrix periods = period_matrix(source, basis);
+            record_.solve = direct_solve(metric.factorizations + basis.factorizations, start);
+            record_.periods = periods_record(basis.homology, periods.basis, periods.periods, input.unit);
+            short_loops_ = basis.homology.loops;
+        }
         record_.solve->iterations = metric.iterations;
-        record_.periods = periods_record(basis.homology, periods.basis, periods.periods, input.unit);
         record_.hyperbolic = hyperbolic_record(metric, found);
         finish_layout(source, input, found.layout, found.distortion,
                       [&] { return page_domain(source, metric, found); });
@@ -189,8 +196,7 @@ class Uniformize final : public Command {
             for (const int v : path) text += std::to_string(input.vertices[static_cast<std::size_t>(v)]) + "\n";
             write_atomically(loops_ + name + ".txt", text);
         };
-        for (std::size_t l = 0; l < record_.periods->loops.size(); ++l)
-            write(std::to_string(l), record_.periods->loops[l].vertices);
+        for (std::size_t l = 0; l < short_loops_.size(); ++l) write(std::to_string(l), short_loops_[l]);
         if (!record_.hyperbolic) return;
         for (std::size_t i = 0; i < record_.hyperbolic->generators.size(); ++i)
             write("_generator" + std::to_string(i), record_.hyperbolic->generators[i].vertices);
@@ -214,13 +220,12 @@ class Uniformize final : public Command {
     void check(const Surface& source) const {
         const Topology& topology = source.topology;
         const auto loops = static_cast<int>(topology.boundary_loops.size());
-        if (topology.components == 1 && topology.genus > 0 && loops > 0)
-            throw Error(
-                Cause::bad_mesh,
-                fmt::format("SOURCE is an open surface of genus {}, which cannot be uniformized yet", topology.genus),
-                "cut it until a surface of genus 0 is left");
-        if (!loops_.empty() && (loops > 0 || topology.genus == 0))
-            throw Error(Cause::bad_option, "--loops is for closed surfaces with handles, and SOURCE is none",
+        if (!loops_.empty() && topology.genus == 0)
+            throw Error(Cause::bad_option, "--loops is for surfaces with handles, and SOURCE is none", "leave it out");
+        if (topology.genus > 0 && (outer_ || centre_))
+            throw Error(Cause::bad_option,
+                        fmt::format("{} is for circle domains, and SOURCE has genus {}",
+                                    outer_ ? "--outer" : "--centre", topology.genus),
                         "leave it out");
         if (sphere_.given() && (loops > 0 || topology.genus > 0))
             throw Error(Cause::bad_option,
@@ -241,6 +246,7 @@ class Uniformize final : public Command {
     }
 
     std::string source_, loops_;
+    std::vector<std::vector<int>> short_loops_;
     std::optional<int> outer_, centre_;
     SphereMethodOption sphere_;
     OutputOptions output_;

@@ -50,6 +50,11 @@
 #include <beltrami/homotopy/continuation.h>
 #include <beltrami/homotopy/homotopy.h>
 #include <beltrami/homotopy/twist.h>
+#include <beltrami/hyperbolic/equivariant_map.h>
+#include <beltrami/hyperbolic/hyperbolic_domain.h>
+#include <beltrami/hyperbolic/hyperbolic_places.h>
+#include <beltrami/hyperbolic/hyperbolic_surface.h>
+#include <beltrami/hyperbolic/marking.h>
 #include <beltrami/io/coefficient_file.h>
 #include <beltrami/io/read_mesh.h>
 #include <beltrami/io/target_file.h>
@@ -75,6 +80,7 @@
 #include <beltrami/plane/disk_moebius.h>
 #include <beltrami/plane/target_curve.h>
 #include <beltrami/registration/nearest_places.h>
+#include <beltrami/registration/register_handles.h>
 #include <beltrami/registration/register_open.h>
 #include <beltrami/registration/register_spheres.h>
 #include <beltrami/registration/transfer.h>
@@ -99,11 +105,13 @@
 #include <beltrami/targets/target_domain.h>
 #include <beltrami/targets/target_mesh.h>
 #include <beltrami/teichmuller/certify.h>
+#include <beltrami/teichmuller/class_search.h>
 #include <beltrami/teichmuller/distance.h>
 #include <beltrami/teichmuller/extremal_between.h>
 #include <beltrami/teichmuller/extremal_map.h>
 #include <beltrami/teichmuller/extremal_solver.h>
 #include <beltrami/teichmuller/extremal_sphere.h>
+#include <beltrami/teichmuller/hyperbolic_map.h>
 #include <beltrami/teichmuller/least_dilatation.h>
 #include <beltrami/teichmuller/torus_map.h>
 #include <beltrami/unfold/fold_free.h>

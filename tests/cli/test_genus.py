@@ -1,4 +1,4 @@
-"""beltrami register and distance of closed surfaces with handles."""
+"""beltrami register and distance of surfaces with handles."""
 
 import math
 import pathlib
@@ -75,6 +75,85 @@ class RegisterTori(Command):
                          self.path("pairs.txt"), code=2)
 
 
+def outside_the_hole(n, m):
+    """Flags of the faces of a torus that are not in a rectangle of its parameters."""
+    cell = np.arange(2 * n * m) // 2
+    return (cell // m >= n // 6) | (cell % m >= m // 4)
+
+
+def torus_with_a_hole(n, m, stretch=1.0):
+    """A torus of revolution less a rectangle of its parameters: a sixth of the one by a quarter of the other."""
+    points, faces = torus(2, 1, n, m)
+    faces = faces[outside_the_hole(n, m)]
+    used, faces = np.unique(faces, return_inverse=True)
+    return points[used] * [1, stretch, 1], faces.reshape(-1, 3)
+
+
+class RegisterOpenSurfacesWithHandles(Command):
+    def setUp(self):
+        super().setUp()
+        # What is left has the same outline on all meshes.
+        for name, mesh in (("a", torus_with_a_hole(48, 24)), ("b", torus_with_a_hole(60, 36, 1.3)),
+                           ("c", torus_with_a_hole(60, 36))):
+            write_obj(self.path(f"{name}.obj"), *mesh)
+
+    def register(self, target, *arguments, code=0):
+        return self.record("register", self.path("a.obj"), self.path(target), "-o", self.path("out.ply"), *arguments,
+                           code=code)
+
+    def test_boundaries_slide(self):
+        record = self.register("b.obj", "--places", self.path("places.txt"))
+        registration = record["registration"]
+        self.assertEqual(record["solve"]["termination"], "converged")
+        self.assertEqual(record["map"]["flipped"], 0)
+        self.assertEqual(registration["dimension"], 3)
+        self.assertEqual(abs(round(np.linalg.det(registration["homology"]))), 1)
+        self.assertGreater(record["map"]["k"], 0.03)
+        self.assertAlmostEqual(registration["inverse_k"], record["map"]["k"], delta=4e-3)
+        self.assertLess(registration["eigenvalues"][0], 0.05)
+        self.assertAlmostEqual(registration["eigenvalues"][1], 0.5, delta=0.05)
+
+    def test_distances_agree_with_the_maps(self):
+        record = self.record("distance", *(self.path(f"{name}.obj") for name in "abc"))["distances"]
+        d = np.array(record["distance"])
+        self.assertLess(d[0, 2], 0.02)
+        self.assertAlmostEqual(d[0, 1], d[1, 2], delta=0.02)
+        self.assertEqual(record["merges"][0]["clusters"], [0, 2])
+
+    def test_uniformize_and_twist(self):
+        record = self.record("uniformize", self.path("a.obj"), "-o", self.path("cut.obj"), "--loops", self.path("loop"))
+        metric = record["hyperbolic"]
+        self.assertAlmostEqual(metric["area"], 2 * math.pi, delta=1e-8)
+        self.assertEqual(len(metric["generators"]), 2)
+        self.assertEqual(len(metric["boundary"]), 1)
+        # The commutator of the generators runs around the boundary, a closed geodesic.
+        a, b = (np.array(generator["matrix"]) for generator in metric["generators"])
+        commutator = a @ b @ np.linalg.inv(a) @ np.linalg.inv(b)
+        self.assertAlmostEqual(2 * math.acosh(abs(np.trace(commutator)) / 2), metric["boundary"][0], delta=1e-6)
+        plain = self.register("c.obj")["map"]["k"]
+        # A meridian on the far side; numbers are those of the file, which has lost the vertices in the hole.
+        left = np.unique(torus(2, 1, 48, 24)[1][outside_the_hole(48, 24)])
+        meridian = np.searchsorted(left, 24 * 24 + np.arange(24))
+        pathlib.Path(self.path("meridian.txt")).write_text(" ".join(map(str, meridian)))
+        twisted = self.register("c.obj", "--twist", f"1:{self.path('meridian.txt')}")
+        self.assertLess(plain, 0.02)
+        self.assertGreater(twisted["map"]["k"], 0.1)
+        self.assertEqual(twisted["map"]["flipped"], 0)
+
+    def test_what_does_not_fit_is_refused(self):
+        pathlib.Path(self.path("l.txt")).write_text("0 1 2\n")
+        for arguments, words, code in ((("--marking", "search"), "boundary", 4), (("--outer", "1"), "--outer", 2),
+                                       (("--loop", self.path("l.txt"), self.path("l.txt")), "boundary", 2)):
+            text = self.run_command("register", self.path("a.obj"), self.path("b.obj"), "-o", self.path("out.ply"),
+                                    *arguments, code=code).stderr
+            self.assertIn(words, text)
+        points, faces = torus(2, 1, 24, 12)
+        write_obj(self.path("closed.obj"), points, faces)
+        self.run_command("register", self.path("a.obj"), self.path("closed.obj"), "-o", self.path("out.ply"), code=4)
+        self.run_command("register", self.path("closed.obj"), self.path("a.obj"), "-o", self.path("out.ply"), code=4)
+        self.run_command("distance", self.path("a.obj"), self.path("closed.obj"), code=4)
+
+
 @unittest.skipUnless((CASES / "double_torus_a.obj").exists(), "the double tori are not here")
 class RegisterDoubleTori(Command):
     def register(self, target, *arguments, source="double_torus_a.obj"):
@@ -101,6 +180,14 @@ class RegisterDoubleTori(Command):
                                 self.path("out.ply"), code=2).stderr
         self.assertIn("defect", text)
         self.assert_nothing_left()
+
+    def test_search_finds_the_class(self):
+        record = self.register("double_torus_13.obj", "--marking", "search")
+        self.assertAlmostEqual(record["map"]["k"], 0.0979, delta=2e-3)
+        search = record["registration"]["search"]
+        energies = [reached["energy"] for reached in search["reached"]]
+        self.assertEqual(energies, sorted(energies))
+        self.assertTrue(any("no optimum over all classes is proved" in warning for warning in record["warnings"]))
 
     def test_twist_about_a_short_loop(self):
         self.record("uniformize", CASES / "double_torus_a.obj", "-o", self.path("cut.obj"), "--loops", self.path("loop"))

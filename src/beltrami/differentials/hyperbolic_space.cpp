@@ -1,5 +1,6 @@
 #include <beltrami/differentials/hyperbolic_space.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -73,6 +74,8 @@ class DbarSystem {
                         lower[entry++] = part == 0 ? value.real() : value.imag();
                         if (j < i || part == 1) lower[entry++] = part == 0 ? -value.imag() : value.real();
                     }
+            for (std::size_t i = 0; i < 3; ++i)
+                if (source.topology.on_boundary[faces_[f][i]]) clear(lower, 2 * i + 1);
             system_.add(f, lower);
         }
         for (Eigen::Index v = 0; v < mass_.size(); ++v)
@@ -81,7 +84,7 @@ class DbarSystem {
         system_.factorize();
     }
 
-    /// (Dᴴ A D + shift M)⁻¹ M x.
+    /// (Dᴴ A D + shift M)⁻¹ M x; real at boundary vertices if x is.
     Eigen::MatrixXcd inverse(const Eigen::MatrixXcd& x) const {
         Eigen::MatrixXd pairs(2 * x.rows(), x.cols());
         for (Eigen::Index v = 0; v < x.rows(); ++v) {
@@ -108,14 +111,54 @@ class DbarSystem {
     }
 
   private:
+    /// Takes an unknown out of a lower triangle of six.
+    static void clear(std::array<double, 21>& lower, std::size_t unknown) {
+        for (std::size_t other = 0; other < 6; ++other) {
+            const std::size_t row = std::max(unknown, other), column = std::min(unknown, other);
+            lower[row * (row + 1) / 2 + column] = 0;
+        }
+    }
+
     const FaceList& faces_;
     Eigen::VectorXd mass_;
     ElementSystem system_;
     const std::vector<FaceOperator>& operators_;
 };
 
+/// Columns made orthonormal, by combinations with complex or with real coefficients.
+Eigen::MatrixXcd orthonormal(const Eigen::MatrixXcd& columns, Coefficients coefficients) {
+    if (coefficients == Coefficients::complex) {
+        const Eigen::HouseholderQR<Eigen::MatrixXcd> qr(columns);
+        return qr.householderQ() * Eigen::MatrixXcd::Identity(columns.rows(), columns.cols());
+    }
+    Eigen::MatrixXd pairs(2 * columns.rows(), columns.cols());
+    pairs << columns.real(), columns.imag();
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(pairs);
+    pairs = qr.householderQ() * Eigen::MatrixXd::Identity(pairs.rows(), pairs.cols());
+    return pairs.topRows(columns.rows()) + Complex(0, 1) * pairs.bottomRows(columns.rows());
+}
+
+/// Eigenvalues and eigenvectors of a pencil; of its real part where only real combinations are wanted.
+struct Ritz {
+    Eigen::VectorXd values;
+    Eigen::MatrixXcd vectors;
+
+    Ritz(const Eigen::MatrixXcd& energy, const Eigen::MatrixXcd& mass, Coefficients coefficients) {
+        if (coefficients == Coefficients::complex) {
+            const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXcd> found(energy, mass);
+            values = found.eigenvalues();
+            vectors = found.eigenvectors();
+        } else {
+            const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> found(energy.real(), mass.real());
+            values = found.eigenvalues();
+            vectors = found.eigenvectors().cast<Complex>();
+        }
+    }
+};
+
 /// Values in the faces' own frames, orthonormal in L² of the surface.
-Eigen::MatrixXcd on_faces(const Surface& source, const std::vector<FaceOperator>& faces, const Eigen::MatrixXcd& x) {
+Eigen::MatrixXcd on_faces(const Surface& source, const std::vector<FaceOperator>& faces, const Eigen::MatrixXcd& x,
+                          Coefficients coefficients) {
     Eigen::MatrixXcd values = Eigen::MatrixXcd::Zero(source.mesh.face_count(), x.cols());
     for (int f = 0; f < source.mesh.face_count(); ++f) {
         const FaceOperator& face = faces[static_cast<std::size_t>(f)];
@@ -124,10 +167,7 @@ Eigen::MatrixXcd on_faces(const Surface& source, const std::vector<FaceOperator>
     }
     const Eigen::VectorXd roots =
         Eigen::Map<const Eigen::VectorXd>(source.operators.weights.data(), values.rows()).cwiseSqrt();
-    const Eigen::MatrixXcd weighted = roots.asDiagonal() * values;
-    const Eigen::HouseholderQR<Eigen::MatrixXcd> qr(weighted);
-    const Eigen::MatrixXcd orthonormal = qr.householderQ() * Eigen::MatrixXcd::Identity(values.rows(), values.cols());
-    return roots.cwiseInverse().asDiagonal() * orthonormal;
+    return roots.cwiseInverse().asDiagonal() * orthonormal(roots.asDiagonal() * values, coefficients);
 }
 
 Eigen::MatrixXcd random_start(Eigen::Index rows, Eigen::Index columns) {
@@ -145,17 +185,19 @@ HyperbolicSpace hyperbolic_space(const Surface& source, const HyperbolicSurface&
     const int dimension = 3 * metric.genus - 3;
     const std::vector<FaceOperator> operators = face_operators(source, metric);
     const DbarSystem system(source, operators);
+    const Coefficients coefficients = metric.has_boundary() ? Coefficients::real : Coefficients::complex;
     Eigen::MatrixXcd x = random_start(source.mesh.vertex_count(), dimension + kSpare);
+    for (const std::vector<int>& loop : source.topology.boundary_loops)
+        for (const int v : loop) x.row(v) = x.row(v).real().cast<Complex>().eval();
     Eigen::VectorXd values = Eigen::VectorXd::Zero(x.cols());
     HyperbolicSpace result{TabulatedSpace(Eigen::MatrixXcd(source.operators.sample_count(), 0)), {}, 0, 0};
     for (int round = 0; round < kMostRounds; ++round) {
         x = system.inverse(x);
         result.solves += static_cast<int>(x.cols());
-        const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXcd> ritz(system.energy_product(x),
-                                                                              system.mass_product(x));
-        x *= ritz.eigenvectors();
-        const double moved = (ritz.eigenvalues() - values).head(dimension).cwiseAbs().maxCoeff();
-        values = ritz.eigenvalues();
+        const Ritz ritz(system.energy_product(x), system.mass_product(x), coefficients);
+        x = (x * ritz.vectors).eval();
+        const double moved = (ritz.values - values).head(dimension).cwiseAbs().maxCoeff();
+        values = ritz.values;
         if (round > 0 && moved < kSettledAngle) break;
     }
     result.kernel = values.head(dimension);
@@ -166,7 +208,7 @@ HyperbolicSpace hyperbolic_space(const Surface& source, const HyperbolicSurface&
                         std::to_string(dimension) + " is " + std::to_string(result.kernel[dimension - 1]) +
                         " and the next one " + std::to_string(result.next) + ", not below and above 1/4",
                     "refine the mesh");
-    result.space = TabulatedSpace(on_faces(source, operators, x.leftCols(dimension)), Coefficients::complex);
+    result.space = TabulatedSpace(on_faces(source, operators, x.leftCols(dimension), coefficients), coefficients);
     return result;
 }
 

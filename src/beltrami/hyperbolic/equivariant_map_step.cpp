@@ -47,6 +47,14 @@ struct EdgeTerms {
         shrunk = length / std::sinh(length);
     }
 
+    /// Takes an unknown out of a lower triangle: its row and its column.
+    static void clear(std::array<double, 10>& lower, std::size_t unknown) {
+        for (std::size_t other = 0; other < 4; ++other) {
+            const std::size_t row = std::max(unknown, other), column = std::min(unknown, other);
+            lower[row * (row + 1) / 2 + column] = 0;
+        }
+    }
+
     /// Lower triangle of w [r rᵀ + d coth d (P Pᵀ + Q Qᵀ) − d/sinh d (P Qᵀ + Q Pᵀ)], r along the edge, P and Q across
     /// it at its ends.
     std::array<double, 10> full(double weight) const {
@@ -112,6 +120,8 @@ Eigen::VectorXcd EquivariantMapStep::gradient() const {
         result[a] -= weights_[e] * edge.length * edge.at_first;
         result[b] -= weights_[e] * edge.length * edge.at_second;
     }
+    for (const std::vector<int>& loop : source_.topology.boundary_loops)
+        for (const int v : loop) result[v] = result[v].real();
     return result;
 }
 
@@ -120,9 +130,14 @@ Eigen::VectorXcd EquivariantMapStep::direction(Hessian kind, const Eigen::Vector
     system_.clear();
     for (std::size_t e = 0; e < weights.size(); ++e) {
         const EdgeTerms edge(map_.steps[e]);
-        system_.add(static_cast<int>(e), kind == Hessian::full ? edge.full(weights[e]) : edge.hermitian(weights[e]));
+        std::array<double, 10> lower = kind == Hessian::full ? edge.full(weights[e]) : edge.hermitian(weights[e]);
+        // Along the boundary ξ is real.
+        const auto [a, b] = source_.topology.edges[e];
+        if (source_.topology.on_boundary[a]) EdgeTerms::clear(lower, 1);
+        if (source_.topology.on_boundary[b]) EdgeTerms::clear(lower, 3);
+        system_.add(static_cast<int>(e), lower);
     }
-    for (Eigen::Index v = 0; v < gradient.size(); ++v)  // vertices without faces
+    for (Eigen::Index v = 0; v < gradient.size(); ++v)  // vertices without faces, and across the boundary
         for (const int unknown : {static_cast<int>(2 * v), static_cast<int>(2 * v + 1)})
             if (system_.diagonal(unknown) == 0) system_.add_to_diagonal(unknown, 1);
     system_.factorize();

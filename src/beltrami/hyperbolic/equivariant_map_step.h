@@ -8,10 +8,11 @@
 
 namespace beltrami {
 
-/// The f-step of maps onto a closed surface of genus 2 or more: the harmonic map from the surface with the coefficient
-/// ν to the hyperbolic metric of the target, in the class of the map. It minimises E = ½ Σ w d², w the cotangent
-/// weights of z + ν z̄ and d the hyperbolic distances along edges, which is convex in the displacements ξ of the images,
-/// each in its own frame.
+/// The f-step of maps onto a surface with a metric of curvature −1: the harmonic map from the surface with the
+/// coefficient ν to the hyperbolic metric of the target, in the class of the map. It minimises E = ½ Σ w d², w the
+/// cotangent weights of z + ν z̄ and d the hyperbolic distances along edges, which is convex in the displacements ξ of
+/// the images, each in its own frame. Boundary vertices move along the boundary, which is a geodesic and the real axis
+/// of their frames: a real ξ is that slide, and no more is needed. That is the symmetric map between the doubles.
 class EquivariantMapStep final : public MapStep {
   public:
     /// @param source of triangles, kept by reference

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <queue>
 #include <tuple>
 
@@ -101,6 +102,104 @@ CutTree cut_tree(const IntrinsicTriangulation& triangulation, int root, const st
     return tree;
 }
 
+namespace {
+
+/// The shortest paths from a root, and what loops cost that go along them and across an edge.
+struct ShortestPaths {
+    std::vector<double> distance;
+    std::vector<int> arrived_by;  ///< #vertices the last half-edge; −1: root, or not reached
+    std::vector<double> loops;    ///< #halfedges
+
+    ShortestPaths(const IntrinsicTriangulation& triangulation, const std::vector<double>& lengths, int root);
+};
+
+ShortestPaths::ShortestPaths(const IntrinsicTriangulation& triangulation, const std::vector<double>& lengths,
+                             int root) {
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    const std::vector<std::vector<int>> from = halfedges_from(triangulation);
+    distance.assign(from.size(), infinite);
+    arrived_by.assign(from.size(), -1);
+    using Reached = std::tuple<double, int>;
+    std::priority_queue<Reached, std::vector<Reached>, std::greater<>> queue;
+    distance[root] = 0;
+    queue.emplace(0, root);
+    while (!queue.empty()) {
+        const auto [d, v] = queue.top();
+        queue.pop();
+        if (d > distance[v]) continue;
+        for (const int h : from[v]) {
+            const int w = triangulation.head(h);
+            const double longer = d + lengths[h];
+            if (!(longer < distance[w])) continue;
+            distance[w] = longer;
+            arrived_by[w] = h;
+            queue.emplace(longer, w);
+        }
+    }
+    loops.resize(lengths.size());
+    for (int h = 0; h < triangulation.halfedge_count(); ++h)
+        loops[h] = distance[triangulation.tail(h)] + lengths[h] + distance[triangulation.head(h)];
+}
+
+}  // namespace
+
+CutTree short_cut_tree(const IntrinsicTriangulation& triangulation, const std::vector<double>& lengths, int root) {
+    const ShortestPaths paths(triangulation, lengths, root);
+    std::vector<int> tree;
+    for (const int h : paths.arrived_by)
+        if (h >= 0) tree.push_back(h);
+    return cut_tree(triangulation, root, paths.loops, tree);
+}
+
+CutTree short_cut_tree_with_boundary(const HyperbolicSurface& metric, const std::vector<double>& lengths, int root) {
+    const IntrinsicTriangulation& triangulation = metric.original;
+    const int own = triangulation.halfedge_count() / 2;
+    const ShortestPaths paths(triangulation, lengths, root);
+    CutTree tree;
+    tree.root = root;
+    tree.to_vertex = paths.arrived_by;
+    for (std::size_t v = 0; v < tree.to_vertex.size(); ++v)
+        if (paths.distance[v] < std::numeric_limits<double>::infinity()) tree.order.push_back(static_cast<int>(v));
+    std::ranges::stable_sort(tree.order, {}, [&](int v) { return paths.distance[v]; });
+    std::vector<char> taken(lengths.size(), 0);
+    const auto take = [&](int h) { taken[h] = taken[triangulation.twin(h)] = 1; };
+    for (const int h : tree.to_vertex)
+        if (h >= 0) take(h);
+    // From outside over the boundary into the triangles, across the dearest edges first.
+    tree.to_triangle.assign(static_cast<std::size_t>(metric.own_triangles()), -1);
+    std::vector<char> seen(tree.to_triangle.size(), 0);
+    Heap heap;
+    int count = 0;
+    for (int h = 0; h < own; ++h)
+        if (triangulation.twin(h) >= own) heap.emplace(-paths.loops[h], count++, h);
+    while (!heap.empty()) {
+        const int h = std::get<2>(heap.top()), t = h / 3;
+        heap.pop();
+        if (taken[h] || seen[t]) continue;
+        seen[t] = 1;
+        take(h);
+        tree.to_triangle[t] = h;
+        for (int k = 0; k < 3; ++k)
+            if (const int g = triangulation.twin(3 * t + k); g < own && !taken[g])
+                heap.emplace(-paths.loops[g], count++, g);
+    }
+    for (int h = 0; h < own; ++h)
+        if (!taken[h] && h < triangulation.twin(h)) tree.generators.push_back(h);
+    return tree;
+}
+
+std::vector<double> edge_lengths(const Topology& topology, const HyperbolicSurface& metric) {
+    const IntrinsicTriangulation& triangulation = metric.original;
+    std::vector<double> result(metric.steps.size());
+    const int own = 3 * metric.own_triangles();
+    for (int h = 0; h < triangulation.halfedge_count(); ++h)
+        result[h] = (h < own || triangulation.twin(h) < own) &&
+                            edge_between(topology, triangulation.tail(h), triangulation.head(h)) >= 0
+                        ? metric.step(h).distance()
+                        : std::numeric_limits<double>::infinity();
+    return result;
+}
+
 std::vector<std::vector<int>> generator_paths(const IntrinsicTriangulation& triangulation, const CutTree& tree) {
     const auto to_root = [&](int v) {
         std::vector<int> path{v};
@@ -168,6 +267,16 @@ std::vector<MarkedStep> halfedge_steps(const Surface& source, const EquivariantM
         const MarkedStep along{map.steps[static_cast<std::size_t>(edge)], map.classes.row(edge)};
         steps.push_back(source.topology.edges[edge][0] == vertices[c] ? along : along.inverse());
     }
+    return steps;
+}
+
+std::vector<MarkedStep> with_mirror_images(std::vector<MarkedStep> steps, const Topology& source) {
+    if (source.boundary_loops.empty()) return steps;
+    const auto own = static_cast<int>(steps.size());
+    steps.resize(2 * steps.size(), steps.front());
+    for (int h = 0; h < own; ++h)
+        steps[IntrinsicTriangulation::mirrored(h, own)] =
+            MarkedStep{steps[h].isometry.mirrored(), steps[h].homology}.inverse();
     return steps;
 }
 

@@ -39,6 +39,19 @@ struct CutTree {
 CutTree cut_tree(const IntrinsicTriangulation& triangulation, int root, const std::vector<double>& costs,
                  const std::vector<int>& first = {}, const std::vector<char>& barred = {});
 
+/// The tree of shortest paths from the root and, across the others, that of the longest loops (Erickson, Whittlesey
+/// 2005): generators are short.
+/// @param lengths #halfedges; infinite where no path is to go
+CutTree short_cut_tree(const IntrinsicTriangulation& triangulation, const std::vector<double>& lengths, int root);
+
+/// The same of a surface with a boundary, within the doubled triangulation that its metric has: there are 1 − χ
+/// generators, free. Triangles and what is outside the surface are joined in one tree; triangle_order is empty.
+CutTree short_cut_tree_with_boundary(const HyperbolicSurface& metric, const std::vector<double>& lengths, int root);
+
+/// Lengths of the half-edges of a metric's own triangles that are edges of the surface; infinite of diagonals of quads,
+/// and of mirror images.
+std::vector<double> edge_lengths(const Topology& topology, const HyperbolicSurface& metric);
+
 /// The loops of the generators as closed paths of vertices through the root: along the tree, across, and back.
 std::vector<std::vector<int>> generator_paths(const IntrinsicTriangulation& triangulation, const CutTree& tree);
 
@@ -65,6 +78,8 @@ double fill_by_flatness(const IntrinsicTriangulation& triangulation, const CutTr
 
 /// A map's steps per half-edge of the source's triangles, and back.
 std::vector<MarkedStep> halfedge_steps(const Surface& source, const EquivariantMap& map);
+/// Where the source has a boundary, those of its double too: along mirror images the mirror images.
+std::vector<MarkedStep> with_mirror_images(std::vector<MarkedStep> steps, const Topology& source);
 void set_halfedge_steps(const Surface& source, const std::vector<MarkedStep>& steps, EquivariantMap& map);
 
 }  // namespace beltrami

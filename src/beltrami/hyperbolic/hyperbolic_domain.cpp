@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <map>
 #include <queue>
 #include <tuple>
@@ -27,6 +26,7 @@ int previous(int h) {
 /// Frames of all corners of all triangles in the disk.
 std::vector<DiskIsometry> develop(const HyperbolicSurface& surface) {
     const IntrinsicTriangulation& triangulation = surface.original;
+    const int own = 3 * surface.own_triangles();
     std::vector<DiskIsometry> frames(surface.steps.size());
     std::vector<char> placed(static_cast<std::size_t>(triangulation.triangle_count()), 0);
     using Entry = std::tuple<double, int>;  // distance of the middle beyond a half-edge from 0
@@ -36,6 +36,7 @@ std::vector<DiskIsometry> develop(const HyperbolicSurface& surface) {
         return (frames[h] * surface.step(next(g))).normalized();
     };
     const auto push = [&](int h) {
+        if (triangulation.twin(h) >= own) return;
         const Complex sum = frames[h].place() + frames[next(h)].place() + beyond(h).place();
         queue.emplace(std::abs(sum) / 3, h);
     };
@@ -60,7 +61,7 @@ std::vector<DiskIsometry> develop(const HyperbolicSurface& surface) {
 std::vector<int> halfedges_of_corners(const Surface& surface, const HyperbolicSurface& metric) {
     const FaceList& faces = surface.mesh.faces;
     std::vector<int> result(static_cast<std::size_t>(faces.corner_count()), -1);
-    for (int h = metric.original.halfedge_count() - 1; h >= 0; --h) {
+    for (int h = 3 * metric.own_triangles() - 1; h >= 0; --h) {
         const int f = metric.metric.faces[static_cast<std::size_t>(h / 3)];
         for (int i = 0; i < faces.degree(f); ++i)
             if (faces[f][i] == metric.original.tail(h)) result[faces.first_corner(f) + i] = h;
@@ -73,9 +74,9 @@ TextureCoordinates layout_of(const Surface& surface, const HyperbolicSurface& me
     const IntrinsicTriangulation& triangulation = metric.original;
     DisjointSets corners(triangulation.halfedge_count());
     const auto same = [&](int a, int b) { return (frames[a].inverse() * frames[b]).distance() < kSamePlace; };
-    for (int h = 0; h < triangulation.halfedge_count(); ++h) {
+    for (int h = 0; h < 3 * metric.own_triangles(); ++h) {
         const int g = triangulation.twin(h);
-        if (same(h, next(g)) && same(next(h), g)) {
+        if (g < 3 * metric.own_triangles() && same(h, next(g)) && same(next(h), g)) {
             corners.join(h, next(g));
             corners.join(next(h), g);
         }
@@ -88,46 +89,6 @@ TextureCoordinates layout_of(const Surface& surface, const HyperbolicSurface& me
     for (const auto& [corner, number] : numbers)
         layout.points.row(number) << frames[corner].place().real(), frames[corner].place().imag();
     return layout;
-}
-
-/// The tree of shortest paths from the root along edges and, across the others and the diagonals of quads, that of the
-/// longest loops.
-CutTree short_loops(const Topology& topology, const HyperbolicSurface& surface, int root) {
-    const IntrinsicTriangulation& triangulation = surface.original;
-    const auto n = static_cast<std::size_t>(triangulation.vertex_count());
-    std::vector<std::vector<int>> from(n);
-    const auto is_edge = [&](int h) {
-        return edge_between(topology, triangulation.tail(h), triangulation.head(h)) >= 0;
-    };
-    for (int h = 0; h < triangulation.halfedge_count(); ++h)
-        if (is_edge(h)) from[triangulation.tail(h)].push_back(h);
-    std::vector<double> distance(n, std::numeric_limits<double>::infinity());
-    std::vector<int> arrived_by(n, -1), tree;
-    using Entry = std::tuple<double, int>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-    distance[root] = 0;
-    queue.emplace(0, root);
-    while (!queue.empty()) {
-        const auto [d, v] = queue.top();
-        queue.pop();
-        if (d > distance[v]) continue;
-        for (const int h : from[v]) {
-            const int w = triangulation.head(h);
-            const double longer = d + surface.step(h).distance();
-            if (!(longer < distance[w])) continue;
-            distance[w] = longer;
-            arrived_by[w] = h;
-            queue.emplace(longer, w);
-        }
-    }
-    for (const int h : arrived_by)
-        if (h >= 0) tree.push_back(h);
-    std::vector<double> costs(surface.steps.size());
-    for (int h = 0; h < triangulation.halfedge_count(); ++h)
-        costs[h] = is_edge(h)
-                       ? distance[triangulation.tail(h)] + surface.step(h).distance() + distance[triangulation.head(h)]
-                       : std::numeric_limits<double>::infinity();
-    return cut_tree(triangulation, root, costs, tree);
 }
 
 }  // namespace
@@ -143,10 +104,15 @@ HyperbolicDomain hyperbolic_domain(const Surface& surface, const HyperbolicSurfa
     }
     domain.distortion = distortion(per_corner(surface.operators, faces), corners);
 
-    const CutTree tree = short_loops(surface.topology, metric, faces.vertices()[0]);
+    const std::vector<double> lengths = edge_lengths(surface.topology, metric);
+    const int root = faces.vertices()[0];
+    const CutTree tree = metric.has_boundary() ? short_cut_tree_with_boundary(metric, lengths, root)
+                                               : short_cut_tree(metric.original, lengths, root);
     domain.paths = generator_paths(metric.original, tree);
     domain.generators = generator_isometries(metric.original, tree, metric.steps);
     for (const DiskIsometry& generator : domain.generators) domain.lengths.push_back(generator.translation_length());
+    domain.boundary_lengths = boundary_lengths(metric, surface.topology);
+    if (metric.has_boundary()) return domain;
     DiskIsometry relation;
     for (const Letter& letter : boundary_word(metric.original, tree)) {
         const DiskIsometry& generator = domain.generators[static_cast<std::size_t>(letter.generator)];

@@ -15,10 +15,13 @@ struct HyperbolicDomain {
     TextureCoordinates layout;
     Distortion
         distortion;  ///< of the map to the layout, face by face; faces that lost an edge to a flip may be flipped
-    std::vector<std::vector<int>> paths;   ///< 2g closed paths of vertices through one vertex: the generators
+    /// Closed paths of vertices through one vertex, the generators: 2g of a closed surface, 1 − χ of one with a
+    /// boundary, whose group is free.
+    std::vector<std::vector<int>> paths;
     std::vector<DiskIsometry> generators;  ///< seen from that vertex
     std::vector<double> lengths;           ///< of the closed geodesics in their classes
-    double relation = 0;                   ///< how far the product around the cut surface is from the identity
+    double relation = 0;  ///< how far the product around the cut surface is from the identity, where it is closed
+    std::vector<double> boundary_lengths;  ///< of the boundary loops, which are closed geodesics
 };
 
 /// @param metric of the surface

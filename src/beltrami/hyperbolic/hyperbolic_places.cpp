@@ -10,48 +10,18 @@
 
 #include <beltrami/base/error.h>
 #include <beltrami/base/parallel.h>
+#include <beltrami/hyperbolic/target_walk.h>
 #include <beltrami/uniformize/edge_flips.h>
 
 namespace beltrami {
 
 namespace {
 
-constexpr double kOnEdge = 1e-13;
-constexpr int kLongestWalk = 1000000;
-
 int next(int h) {
     return IntrinsicTriangulation::next(h);
 }
 int previous(int h) {
     return IntrinsicTriangulation::previous(h);
-}
-
-std::vector<int> first_halfedges(const IntrinsicTriangulation& triangulation) {
-    std::vector<int> result(static_cast<std::size_t>(triangulation.vertex_count()), -1);
-    for (int h = triangulation.halfedge_count() - 1; h >= 0; --h) result[triangulation.tail(h)] = h;
-    return result;
-}
-
-/// Walks to the triangle of the Delaunay triangulation that contains a point.
-/// @param p seen from the frame of the tail of h
-/// @return projective weights of the corners; no triangle if the walk does not end
-IntrinsicPoint walk(const HyperbolicSurface& surface, int h, Complex p) {
-    std::array<double, 3> weights{};
-    int inside = 0;
-    for (int i = 0; i < kLongestWalk && inside < 3; ++i) {
-        const DiskIsometry& step = surface.delaunay_steps[static_cast<std::size_t>(h)];
-        const Complex head = step.place();
-        const double side = std::imag(std::conj(head) * p);
-        const bool crosses = side < -kOnEdge;
-        // Proportional to det(p, tail, head) on the hyperboloid: the weight of the corner opposite.
-        weights[static_cast<std::size_t>(previous(h) % 3)] =
-            std::max(0.0, side / ((1 - std::norm(head)) * (1 - std::norm(p))));
-        p = step.inverse()(p);
-        inside = crosses ? 0 : inside + 1;
-        h = crosses ? surface.delaunay.twin(h) : next(h);
-    }
-    if (inside < 3) return {};
-    return {h / 3, weights};
 }
 
 /// The quadrilateral i l j k of an edge i→j that has become l→k, as vectors of the light cone whose products are the
@@ -109,10 +79,13 @@ std::vector<IntrinsicPoint> before_ptolemy(IntrinsicTriangulation flipped, const
 
 std::vector<MeshPoint> places_of(const HyperbolicSurface& target, const EquivariantMap& map) {
     const auto count = static_cast<int>(map.bases.size());
-    const std::vector<int> first = first_halfedges(target.delaunay);
+    const std::vector<int> first = detail::first_halfedges(target);
     std::vector<IntrinsicPoint> points(static_cast<std::size_t>(count));
     parallel_for(0, count, [&](int begin, int end) {
-        for (int v = begin; v < end; ++v) points[v] = walk(target, first[map.bases[v]], map.frames[v].place());
+        for (int v = begin; v < end; ++v) {
+            const detail::TargetWalk walk = detail::walk(target, first[map.bases[v]], map.frames[v]);
+            if (walk.halfedge >= 0) points[v] = {walk.halfedge / 3, walk.weights};
+        }
     });
     std::vector<int> lost;
     for (int v = 0; v < count; ++v) {
@@ -140,7 +113,11 @@ std::vector<MeshPoint> places_of(const HyperbolicSurface& target, const Equivari
     points = before_flips(std::move(unfolded), target.unfolded, std::move(points));
     std::vector<MeshPoint> places;
     places.reserve(points.size());
-    for (const IntrinsicPoint& point : points) {
+    for (IntrinsicPoint& point : points) {
+        if (point.triangle >= target.own_triangles()) {  // of the mirror image, whose corners run the other way
+            point.triangle -= target.own_triangles();
+            std::swap(point.weights[1], point.weights[2]);
+        }
         const auto v = target.metric.triangles[point.triangle];
         places.push_back({target.metric.faces[point.triangle], {v[0], v[1], v[2]}, point.weights});
     }

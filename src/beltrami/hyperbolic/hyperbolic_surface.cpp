@@ -82,12 +82,15 @@ void require_hyperbolic(const Topology& t) {
     if (t.components != 1)
         throw Error(Cause::bad_mesh, "the surface has " + std::to_string(t.components) + " components",
                     "take one component at a time");
-    if (!t.boundary_loops.empty())
-        throw Error(Cause::bad_mesh, "the surface has a boundary, and is not closed", "fill its holes");
-    if (t.genus < 2)
+    const auto loops = static_cast<int>(t.boundary_loops.size());
+    if (2 * t.genus + loops < 3)
         throw Error(Cause::bad_mesh,
-                    "the surface has genus " + std::to_string(t.genus) + ", and no metric of curvature -1",
-                    "take one of genus 2 or more");
+                    "the surface has genus " + std::to_string(t.genus) +
+                        (loops == 0   ? std::string()
+                         : loops == 1 ? std::string(" with one boundary loop")
+                                      : " with " + std::to_string(loops) + " boundary loops") +
+                        ", and no metric of curvature -1",
+                    "take one with more handles or holes");
 }
 
 double flat_area(const IntrinsicTriangulation& triangulation) {
@@ -166,9 +169,67 @@ void steps_before(const std::vector<EdgeFlip>& flips, std::vector<DiskIsometry>&
     }
 }
 
+/// The mirror images of the vertices of a doubled triangulation.
+std::vector<int> mirror_of(const IntrinsicTriangulation& triangulation) {
+    std::vector<int> mirror(static_cast<std::size_t>(triangulation.vertex_count()));
+    for (std::size_t v = 0; v < mirror.size(); ++v) mirror[v] = static_cast<int>(v);  // where there is no triangle
+    for (int h = 0; h < triangulation.halfedge_count(); ++h)
+        mirror[triangulation.tail(h)] =
+            triangulation.head(IntrinsicTriangulation::mirrored(h, triangulation.halfedge_count() / 2));
+    return mirror;
+}
+
+/// Turns the frames of a doubled surface: of boundary vertices along the boundary, of others so that mirror images have
+/// mirror images.
+void align_with_mirror(HyperbolicSurface& surface) {
+    const IntrinsicTriangulation& triangulation = surface.original;
+    const int own = triangulation.halfedge_count() / 2;
+    const auto on_boundary = [&](int h) { return triangulation.twin(h) == IntrinsicTriangulation::mirrored(h, own); };
+    std::vector<double> turns(surface.mirror.size(), 0);
+    std::vector<char> known(turns.size(), 0);
+    const auto direction = [&](int h) { return std::arg(surface.step(h).direction()); };
+    for (int h = 0; h < own; ++h)
+        if (on_boundary(h)) {
+            turns[triangulation.tail(h)] = direction(h);
+            known[triangulation.tail(h)] = 1;
+        }
+    for (int h = 0; h < own; ++h) {
+        const int v = triangulation.tail(h);
+        if (known[v]) continue;
+        known[v] = 1;
+        turns[v] = direction(h);
+        turns[surface.mirror[v]] = direction(triangulation.twin(IntrinsicTriangulation::mirrored(h, own)));
+    }
+    const auto turn = [&](const IntrinsicTriangulation& of, std::vector<DiskIsometry>& steps) {
+        for (int h = 0; h < of.halfedge_count(); ++h)
+            steps[h] =
+                DiskIsometry::rotation(-turns[of.tail(h)]) * steps[h] * DiskIsometry::rotation(turns[of.head(h)]);
+    };
+    turn(triangulation, surface.steps);
+    turn(surface.delaunay, surface.delaunay_steps);
+    // But for rounding along the boundary already.
+    for (int h = 0; h < own; ++h)
+        if (on_boundary(h)) {
+            DiskIsometry& step = surface.steps[static_cast<std::size_t>(h)];
+            step = DiskIsometry{step.a.real(), step.b.real()}.normalized();
+            surface.steps[static_cast<std::size_t>(triangulation.twin(h))] = step.inverse();
+        }
+}
+
+/// How far steps along mirror images are from mirror images of steps.
+double asymmetry(const HyperbolicSurface& surface) {
+    const int own = surface.original.halfedge_count() / 2;
+    double largest = 0;
+    for (int h = 0; h < own; ++h)
+        largest = std::max(
+            largest,
+            (surface.step(h).mirrored() * surface.step(IntrinsicTriangulation::mirrored(h, own))).from_identity());
+    return largest;
+}
+
 /// Flatness, and the triangles that the flips have left the wrong way round.
 void inspect(HyperbolicSurface& surface) {
-    for (int t = 0; t < surface.original.triangle_count(); ++t) {
+    for (int t = 0; t < surface.own_triangles(); ++t) {
         const DiskIsometry &ij = surface.step(3 * t), &jk = surface.step(3 * t + 1), &ki = surface.step(3 * t + 2);
         surface.flatness = std::max(surface.flatness, (ij * jk * ki).from_identity());
         const double side = std::imag(std::conj(ij.place()) * ki.inverse().place());
@@ -194,16 +255,18 @@ HyperbolicSurface hyperbolic_surface(const Surface& surface) {
     TriangleMetric metric = triangle_metric(surface.mesh, surface.topology,
                                             surface.metric ? *surface.metric : corner_positions(surface.mesh));
     IntrinsicTriangulation original(metric.triangles, surface.mesh.vertex_count(), metric.log_lengths);
+    const auto loops = static_cast<int>(surface.topology.boundary_loops.size());
+    if (loops > 0) original = original.doubled();
+    const int genus = loops > 0 ? 2 * surface.topology.genus + loops - 1 : surface.topology.genus;
     IntrinsicTriangulation unfolded = original;
     std::vector<EdgeFlip> flips = unfolded.delaunay_flips();
-    const int genus = surface.topology.genus;
     const double area = flat_area(unfolded);
     const ScaleFactorProblem problem = problem_of(unfolded);
     ChordSurface chords(std::move(unfolded));
     // A surface without curvature of its own would have this scale.
     const double start = 0.5 * std::log(4 * kPi * (genus - 1) / area);
     const ScaleFactors found =
-        solve_scale_factors(chords, problem, Eigen::VectorXd::Constant(surface.mesh.vertex_count(), start));
+        solve_scale_factors(chords, problem, Eigen::VectorXd::Constant(original.vertex_count(), start));
     if (found.status != ScaleFactorStatus::converged && found.status != ScaleFactorStatus::stagnated)
         throw Error(Cause::not_solved,
                     "the hyperbolic metric was not found: angles are off by up to " + std::to_string(found.residual),
@@ -220,16 +283,32 @@ HyperbolicSurface hyperbolic_surface(const Surface& surface) {
                              .steps = std::move(steps),
                              .delaunay_steps = std::move(delaunay_steps),
                              .genus = genus,
+                             .mirror = {},
                              .iterations = found.iterations,
                              .factorizations = found.factorizations,
                              .residual = found.residual,
                              .flatness = 0,
                              .inverted = {}};
+    if (loops > 0) {
+        result.mirror = mirror_of(result.original);
+        align_with_mirror(result);
+    }
     inspect(result);
-    if (!(result.flatness < kTornFlatness))
+    if (!(result.flatness < kTornFlatness) || (loops > 0 && !(asymmetry(result) < kTornFlatness)))
         throw Error(Cause::not_solved, "the hyperbolic metric does not hold together along the surface's own edges",
                     "remesh the surface: its triangles are too thin for double precision");
     return result;
+}
+
+std::vector<double> boundary_lengths(const HyperbolicSurface& metric, const Topology& topology) {
+    std::vector<int> loop_of(static_cast<std::size_t>(metric.original.vertex_count()), -1);
+    for (std::size_t l = 0; l < topology.boundary_loops.size(); ++l)
+        for (const int v : topology.boundary_loops[l]) loop_of[v] = static_cast<int>(l);
+    std::vector<double> lengths(topology.boundary_loops.size(), 0);
+    const int own = 3 * metric.own_triangles();
+    for (int h = 0; h < own; ++h)
+        if (metric.original.twin(h) >= own) lengths[loop_of[metric.original.tail(h)]] += metric.step(h).distance();
+    return lengths;
 }
 
 void require_triangles(const Surface& surface) {

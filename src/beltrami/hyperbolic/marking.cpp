@@ -4,15 +4,13 @@
 #include <cmath>
 #include <cstdio>
 #include <deque>
-#include <limits>
-#include <queue>
 #include <string>
 #include <utility>
 
 #include <beltrami/base/disjoint_sets.h>
 #include <beltrami/base/error.h>
 #include <beltrami/hyperbolic/fundamental_group.h>
-#include <beltrami/locate/surface_locator.h>
+#include <beltrami/hyperbolic/target_edges.h>
 
 namespace beltrami {
 
@@ -26,79 +24,10 @@ std::string short_number(double x) {
     return text;
 }
 
-/// Walks along the edges of the target: steps with homology classes, and shortest paths.
-class TargetEdges {
-  public:
-    explicit TargetEdges(const EdgeGroup& target)
-        : target_(target),
-          from_(static_cast<std::size_t>(target.triangulation.vertex_count())),
-          edges_(static_cast<std::size_t>(target.triangulation.halfedge_count())),
-          distance_(from_.size(), std::numeric_limits<double>::infinity()),
-          arrived_by_(from_.size(), -1) {
-        for (int h = 0; h < target.triangulation.halfedge_count(); ++h) {
-            edges_[h] = edge_between(target.topology, target.triangulation.tail(h), target.triangulation.head(h));
-            if (edges_[h] >= 0) from_[target.triangulation.tail(h)].push_back(h);  // else the diagonal of a quad
-        }
-    }
-
-    int size() const { return target_.homology.size(); }
-    MarkedStep nowhere() const { return {{}, Eigen::RowVectorXi::Zero(size())}; }
-    MarkedStep along(int h) const {
-        const int sign = target_.triangulation.tail(h) < target_.triangulation.head(h) ? 1 : -1;
-        return {target_.steps[static_cast<std::size_t>(h)], sign * target_.homology.cochains.row(edges_[h])};
-    }
-    /// @return −1 if no edge joins the vertices
-    int halfedge(int a, int b) const {
-        for (const int h : from_[a])
-            if (target_.triangulation.head(h) == b) return h;
-        return -1;
-    }
-    /// Along a shortest path of edges.
-    MarkedStep between(int a, int b) {
-        MarkedStep result = nowhere();
-        if (a == b) return result;
-        search(a, b);
-        std::vector<int> path;
-        for (int v = b; v != a; v = target_.triangulation.tail(path.back())) path.push_back(arrived_by_[v]);
-        for (auto h = path.rbegin(); h != path.rend(); ++h) result = result * along(*h);
-        for (const int v : touched_) {
-            distance_[v] = std::numeric_limits<double>::infinity();
-            arrived_by_[v] = -1;
-        }
-        touched_.clear();
-        return result;
-    }
-
-  private:
-    void search(int a, int b) {
-        using Entry = std::pair<double, int>;
-        std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-        distance_[a] = 0;
-        touched_.push_back(a);
-        queue.emplace(0, a);
-        while (!queue.empty()) {
-            const auto [distance, v] = queue.top();
-            queue.pop();
-            if (v == b) return;
-            if (distance > distance_[v]) continue;
-            for (const int h : from_[v]) {
-                const int w = target_.triangulation.head(h);
-                const double longer = distance + std::exp(target_.triangulation.log_length(h));
-                if (!(longer < distance_[w])) continue;
-                if (std::isinf(distance_[w])) touched_.push_back(w);
-                distance_[w] = longer;
-                arrived_by_[w] = h;
-                queue.emplace(longer, w);
-            }
-        }
-    }
-
-    EdgeGroup target_;
-    std::vector<std::vector<int>> from_;
-    std::vector<int> edges_;
-    std::vector<double> distance_;
-    std::vector<int> arrived_by_, touched_;
-};
+bool on_boundary(const Topology& topology, int edge) {
+    const auto& [left, right] = topology.edge_faces[static_cast<std::size_t>(edge)];
+    return left < 0 || right < 0;
+}
 
 /// Faces whose images do not close up.
 std::vector<int> faces_not_flat(const Surface& source, const EquivariantMap& map) {
@@ -128,19 +57,32 @@ std::vector<int> distances_from(const IntrinsicTriangulation& triangulation, con
     return distance;
 }
 
+/// How far steps along the boundary are from the boundary of the target.
+double off_boundary(const Surface& source, const EquivariantMap& map) {
+    double largest = 0;
+    for (std::size_t e = 0; e < map.steps.size(); ++e)
+        if (on_boundary(source.topology, static_cast<int>(e)))
+            largest = std::max(largest, (map.steps[e].mirrored() * map.steps[e].inverse()).from_identity());
+    return largest;
+}
+
 /// Keeps the steps of a tree and of generators that stay away from the bad faces; all others follow by flatness.
-double mend(const Surface& source, const IntrinsicTriangulation& triangulation, const std::vector<int>& bad,
+double mend(const Surface& source, const IntrinsicTriangulation& triangulation, std::vector<int> bad,
             EquivariantMap& map) {
+    if (!source.topology.boundary_loops.empty()) {
+        const std::size_t own = bad.size();
+        for (std::size_t i = 0; i < own; ++i) bad.push_back(bad[i] + source.mesh.face_count());
+    }
     const std::vector<int> distance = distances_from(triangulation, bad);
     std::vector<double> costs(static_cast<std::size_t>(triangulation.halfedge_count()));
     for (int h = 0; h < triangulation.halfedge_count(); ++h)
         costs[h] = 1.0 / (1 + std::min(distance[h / 3], distance[triangulation.twin(h) / 3]));
     const auto farthest = std::max_element(distance.begin(), distance.end()) - distance.begin();
     const CutTree tree = cut_tree(triangulation, triangulation.tail(3 * static_cast<int>(farthest)), costs);
-    std::vector<MarkedStep> steps = halfedge_steps(source, map);
+    std::vector<MarkedStep> steps = with_mirror_images(halfedge_steps(source, map), source.topology);
     const double defect = fill_by_flatness(triangulation, tree, steps);
     set_halfedge_steps(source, steps, map);
-    return defect;
+    return std::max(defect, off_boundary(source, map));
 }
 
 EquivariantMap at_vertices(const std::vector<int>& images, int edges, int classes) {
@@ -160,7 +102,7 @@ Error bad_path(const std::string& sentence, std::vector<int> vertices) {
 }
 
 /// The holonomy of a closed path of the target.
-MarkedStep around(const TargetEdges& edges, const std::vector<int>& path) {
+MarkedStep around(const detail::TargetEdges& edges, const std::vector<int>& path) {
     MarkedStep result = edges.nowhere();
     for (std::size_t i = 0; i < path.size(); ++i) {
         const int a = path[i], b = path[(i + 1) % path.size()], h = edges.halfedge(a, b);
@@ -243,29 +185,15 @@ struct LoopSystem {
 
 }  // namespace
 
-std::vector<int> nearest_vertices(const Mesh& target, const FaceList& faces, const Positions& points) {
-    std::vector<std::array<int, 3>> triangles;
-    triangles.reserve(static_cast<std::size_t>(faces.size()));
-    for (int t = 0; t < faces.size(); ++t) triangles.push_back({faces[t][0], faces[t][1], faces[t][2]});
-    const SurfaceLocator locator(target.positions, triangles);
-    std::vector<int> result;
-    for (Eigen::Index p = 0; p < points.rows(); ++p) {
-        const SurfaceLocator::Place place = locator.nearest(points.row(p).transpose());
-        const auto largest = std::max_element(place.barycentric.begin(), place.barycentric.end());
-        result.push_back(triangles[static_cast<std::size_t>(place.triangle)]
-                                  [static_cast<std::size_t>(largest - place.barycentric.begin())]);
-    }
-    return result;
-}
-
 Marking marking_by_vertices(const Surface& source, const IntrinsicTriangulation& triangulation, const EdgeGroup& target,
                             const std::vector<int>& images) {
     require_triangles(source);
-    TargetEdges edges(target);
+    detail::TargetEdges edges(target);
     Marking marking{at_vertices(images, source.topology.edge_count(), edges.size())};
     for (int e = 0; e < source.topology.edge_count(); ++e) {
         const auto [a, b] = source.topology.edges[static_cast<std::size_t>(e)];
-        const MarkedStep step = edges.between(images[a], images[b]);
+        const MarkedStep step = on_boundary(source.topology, e) ? edges.along_boundary(images[a], images[b])
+                                                                : edges.between(images[a], images[b]);
         marking.map.steps[static_cast<std::size_t>(e)] = step.isometry.normalized();
         marking.map.classes.row(e) = step.homology;
     }
@@ -287,6 +215,10 @@ Marking marking_by_vertices(const Surface& source, const IntrinsicTriangulation&
 Marking marking_by_loops(const Surface& source, const IntrinsicTriangulation& triangulation, const EdgeGroup& target,
                          const std::vector<std::vector<int>>& paths, const std::vector<std::vector<int>>& images) {
     require_triangles(source);
+    if (!source.topology.boundary_loops.empty())
+        throw Error(Cause::bad_option,
+                    "loops tell the class of maps between closed surfaces, and these have a boundary",
+                    "bring the source near the target, or give a start");
     const int genus = source.topology.genus;
     const auto wanted = 2 * static_cast<std::size_t>(genus);
     if (paths.size() != wanted || images.size() != wanted)
@@ -295,7 +227,7 @@ Marking marking_by_loops(const Surface& source, const IntrinsicTriangulation& tr
                         " loops and as many images, and there are " + std::to_string(paths.size()) + " and " +
                         std::to_string(images.size()),
                     "give generators of the fundamental group");
-    const TargetEdges edges(target);
+    const detail::TargetEdges edges(target);
     LoopSystem loops(triangulation, edges.nowhere());
     for (std::size_t i = 0; i < wanted; ++i) {
         if (paths[i].empty() || images[i].empty() || paths[i][0] != paths[0][0] || images[i][0] != images[0][0])
@@ -327,7 +259,10 @@ EquivariantMap twisted(const Surface& source, const IntrinsicTriangulation& tria
     std::vector<char> visited(static_cast<std::size_t>(triangulation.vertex_count()), 0);
     for (const int v : path)
         if (visited[v]++) throw bad_path("the path meets vertex " + std::to_string(v) + " twice", {v});
-    std::vector<MarkedStep> steps = halfedge_steps(source, map);
+    for (const int v : path)
+        if (source.topology.on_boundary[v])
+            throw bad_path("the path meets the boundary, at vertex " + std::to_string(v), {v});
+    std::vector<MarkedStep> steps = with_mirror_images(halfedge_steps(source, map), source.topology);
     MarkedStep holonomy = steps[along[0]];
     for (std::size_t i = 1; i < along.size(); ++i) holonomy = holonomy * steps[along[i]];
     std::vector<MarkedStep> result = steps;

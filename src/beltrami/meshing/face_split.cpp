@@ -74,18 +74,33 @@ SplitMesh split_faces(const Mesh& mesh, const std::vector<int>& faces) {
     });
 }
 
-SplitMesh split_unusable_faces(const Mesh& mesh) {
-    SplitMesh first = split_large_faces(mesh);
-    const std::vector<int> folded = faces_without_area(first.mesh);
+namespace {
+
+/// Cuts large faces, and of the quads then there are those that are wanted.
+template <class Wanted>
+SplitMesh split_quads(SplitMesh first, Wanted&& wanted) {
     SplitMesh second = cut_faces(first.mesh, [&](int f) -> std::vector<std::array<int, 3>> {
-        if (first.mesh.faces.degree(f) != 4 || !std::ranges::binary_search(folded, f)) return {};
+        if (first.mesh.faces.degree(f) != 4 || !wanted(f)) return {};
         return triangles_of_quad(first.mesh, f);
     });
     for (int& f : second.faces) f = first.faces[f];
     for (int& f : second.cut) f = first.faces[f];
     second.cut.insert(second.cut.end(), first.cut.begin(), first.cut.end());
     std::ranges::sort(second.cut);
+    second.cut.erase(std::unique(second.cut.begin(), second.cut.end()), second.cut.end());
     return second;
+}
+
+}  // namespace
+
+SplitMesh split_unusable_faces(const Mesh& mesh) {
+    SplitMesh first = split_large_faces(mesh);
+    const std::vector<int> folded = faces_without_area(first.mesh);
+    return split_quads(std::move(first), [&](int f) { return std::ranges::binary_search(folded, f); });
+}
+
+SplitMesh split_into_triangles(const Mesh& mesh) {
+    return split_quads(split_large_faces(mesh), [](int) { return true; });
 }
 
 }  // namespace beltrami

@@ -28,4 +28,8 @@ SplitMesh split_faces(const Mesh& mesh, const std::vector<int>& faces);
 /// @pre as above
 SplitMesh split_unusable_faces(const Mesh& mesh);
 
+/// Cuts all faces with more than three corners, quads by split_quad().
+/// @pre as above
+SplitMesh split_into_triangles(const Mesh& mesh);
+
 }  // namespace beltrami

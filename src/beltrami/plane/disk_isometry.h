@@ -31,6 +31,8 @@ struct DiskIsometry {
         return {a * other.a + b * std::conj(other.b), a * other.b + b * std::conj(other.a)};
     }
     DiskIsometry inverse() const { return {std::conj(a), -b}; }
+    /// The same seen in the mirror, the real axis.
+    DiskIsometry mirrored() const { return {std::conj(a), std::conj(b)}; }
     /// Where 0 goes.
     Complex place() const { return b / std::conj(a); }
     /// How far 0 is moved.

@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <string>
 #include <utility>
 
 #include <Eigen/LU>
@@ -16,6 +17,15 @@ namespace beltrami {
 
 namespace {
 
+constexpr double kSameEnergy = 1e-4;  // relative, of harmonic maps in one class
+
+EquivariantMap twisted_by(const Surface& source, const IntrinsicTriangulation& triangulation, EquivariantMap map,
+                          const std::vector<HandleMarking::Twist>& twists) {
+    for (const HandleMarking::Twist& twist : twists)
+        map = twisted(source, triangulation, std::move(map), twist.path, twist.turns);
+    return map;
+}
+
 /// The class that is asked for.
 Marking choose(const Surface& source, const IntrinsicTriangulation& triangulation, const Mesh& target,
                const FaceList& triangles, const EdgeGroup& group, const HandleMarking& wanted) {
@@ -26,11 +36,49 @@ Marking choose(const Surface& source, const IntrinsicTriangulation& triangulatio
         marking = marking_by_loops(source, triangulation, group, wanted.paths, wanted.images);
     } else {
         const Positions near = wanted.start ? *wanted.start : aligned(source.mesh, target, wanted.alignment);
-        marking = marking_by_vertices(source, triangulation, group, nearest_vertices(target, triangles, near));
+        marking = marking_by_vertices(source, triangulation, group,
+                                      nearest_vertices(source.topology, group.topology, target, triangles, near));
     }
-    for (const HandleMarking::Twist& twist : wanted.twists)
-        marking.map = twisted(source, triangulation, std::move(marking.map), twist.path, twist.turns);
+    marking.map = twisted_by(source, triangulation, std::move(marking.map), wanted.twists);
     return marking;
+}
+
+/// Points of the given vertices, and of those added the means of theirs.
+Positions with_means(const Positions& points, const SplitProblem& split) {
+    Positions result(points.rows() + static_cast<Eigen::Index>(split.parents.size()), points.cols());
+    result.topRows(points.rows()) = points;
+    for (std::size_t i = 0; i < split.parents.size(); ++i)
+        result.row(points.rows() + static_cast<Eigen::Index>(i)) =
+            0.5 * (points.row(split.parents[i][0]) + points.row(split.parents[i][1]));
+    return result;
+}
+
+/// A closed path of the given vertices, over the midpoints of edges that were split.
+std::vector<int> over_midpoints(const std::vector<int>& path, const SplitProblem& split) {
+    const int given = split.mesh.vertex_count() - static_cast<int>(split.parents.size());
+    std::map<std::array<int, 2>, int> midpoints;
+    for (std::size_t i = 0; i < split.parents.size(); ++i) {
+        const auto [low, high] = std::minmax(split.parents[i][0], split.parents[i][1]);
+        midpoints[{low, high}] = given + static_cast<int>(i);
+    }
+    std::vector<int> result;
+    for (std::size_t i = 0; i < path.size(); ++i) {
+        const auto [low, high] = std::minmax(path[i], path[(i + 1) % path.size()]);
+        result.push_back(path[i]);
+        if (const auto found = midpoints.find({low, high}); found != midpoints.end()) result.push_back(found->second);
+    }
+    return result;
+}
+
+/// How far the class that was sought may be trusted.
+void warn_of_search(const ClassSearch& search, HyperbolicMap& map) {
+    const double least = search.reached[0].energy;
+    const auto alike = std::ranges::count_if(
+        search.reached, [&](const ClassSearch::Reached& other) { return other.energy < least * (1 + kSameEnergy); });
+    map.warnings.push_back({WarningKind::start, "the class was sought from " +
+                                                    std::to_string(search.reached.size() + search.failed) +
+                                                    " starts, of which " + std::to_string(alike) +
+                                                    " led to the least energy; no optimum over all classes is proved"});
 }
 
 IntrinsicTriangulation triangulation_of(const Surface& surface, const FlatTorus& torus) {
@@ -62,9 +110,9 @@ struct PairwiseMaps {
     std::map<std::array<int, 2>, std::vector<int>> images;
 
     std::vector<int> nearest(int i, int j, Alignment alignment) const {
-        const Mesh& target = shapes[j]->surface().mesh;
-        return nearest_vertices(target, shapes[j]->metric().metric.triangles,
-                                aligned(shapes[i]->surface().mesh, target, alignment));
+        const Surface &source = shapes[i]->surface(), &target = shapes[j]->surface();
+        return nearest_vertices(source.topology, target.topology, target.mesh, shapes[j]->metric().metric.triangles,
+                                aligned(source.mesh, target.mesh, alignment));
     }
     /// Over a third shape to which and from which maps are known; empty: there is none.
     std::vector<int> over_another(int i, int j) const {
@@ -94,9 +142,26 @@ struct PairwiseMaps {
 
 HandleRegistration register_handles(const HyperbolicShape& source, const HyperbolicShape& target,
                                     const HandleMarking& marking, const HyperbolicMapOptions& options) {
-    Marking chosen = choose(source.surface(), source.metric().original, target.surface().mesh,
-                            target.metric().metric.triangles, target.group(), marking);
-    HandleRegistration result{hyperbolic_map(source, target, std::move(chosen.map), options), chosen.mended, {}};
+    const IntrinsicTriangulation& triangulation = source.metric().original;
+    std::optional<ClassSearch> search;
+    Marking chosen;
+    if (marking.search) {
+        if (!marking.paths.empty() || !marking.images.empty() || marking.start)
+            throw Error(Cause::bad_option, "a class is sought, or told by loops or a start", "leave out one of them");
+        search = search_class(source, target, *marking.search);
+        chosen.map = twisted_by(source.surface(), triangulation, search->map, marking.twists);
+    } else {
+        HandleMarking of_all = marking;
+        if (const std::optional<SplitProblem>& split = source.split()) {
+            if (of_all.start) of_all.start = with_means(*of_all.start, *split);
+            for (HandleMarking::Twist& twist : of_all.twists) twist.path = over_midpoints(twist.path, *split);
+        }
+        chosen = choose(source.surface(), triangulation, target.surface().mesh, target.metric().metric.triangles,
+                        target.group(), of_all);
+    }
+    HandleRegistration result{
+        hyperbolic_map(source, target, std::move(chosen.map), options), std::move(search), chosen.mended, {}};
+    if (result.search) warn_of_search(*result.search, result.map);
     try {
         const Marking back = inverse_marking(source, target, result.map);
         result.inverse_k = hyperbolic_map(target, source, back.map, options).k;

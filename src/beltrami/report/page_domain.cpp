@@ -60,6 +60,8 @@ PageDomain page_domain(const Surface& surface, const HyperbolicSurface& metric, 
     for (int i = 0; i <= kPiecesOfCircle; ++i)
         circle.push_back(std::polar(1.0, 2 * std::numbers::pi * i / kPiecesOfCircle));
     result.outline.push_back(curve(circle));
+    // The group of a surface with a boundary is free, and its polygons have no finite area.
+    if (metric.has_boundary()) return result;
     // The generators are seen from a vertex that lies at 0.
     const HyperbolicPolygon polygon = dirichlet_polygon(domain.generators, 4 * std::numbers::pi * (metric.genus - 1));
     std::vector<Complex> rim;

@@ -27,7 +27,8 @@ struct PageDomain {
 /// A torus over the parallelogram of its generators.
 PageDomain page_domain(const Surface& surface, const FlatTorus& torus);
 
-/// A surface of genus 2 or more in the unit disk, with the Dirichlet polygon about the middle (fundamental_polygon.h).
+/// A surface with a hyperbolic metric in the unit disk; a closed one with the Dirichlet polygon about the middle
+/// (fundamental_polygon.h).
 PageDomain page_domain(const Surface& surface, const HyperbolicSurface& metric, const HyperbolicDomain& domain);
 
 /// φ = conj(μ) dz² of an affine map between tori, z the flat coordinate of the source: its directions; no zeros.

@@ -136,7 +136,7 @@ MapRecord map_record(const ExtremalSphereMap& result) {
 
 HyperbolicRecord hyperbolic_record(const HyperbolicSurface& metric, const HyperbolicDomain& domain) {
     HyperbolicRecord record;
-    record.area = metric.area();
+    record.area = metric.has_boundary() ? metric.area() / 2 : metric.area();
     record.residual = metric.residual;
     record.flips = static_cast<int>(metric.unfolded.size());
     record.ptolemy_flips = static_cast<int>(metric.ptolemy.size());
@@ -144,6 +144,7 @@ HyperbolicRecord hyperbolic_record(const HyperbolicSurface& metric, const Hyperb
     for (std::size_t i = 0; i < domain.generators.size(); ++i)
         record.generators.push_back({domain.lengths[i], domain.generators[i].on_half_plane(), domain.paths[i]});
     record.relation = domain.relation;
+    record.boundary = domain.boundary_lengths;
     return record;
 }
 
@@ -235,7 +236,14 @@ RegistrationRecord registration_record(const HandleRegistration& result, const H
                                                                   map.K_homology,
                                                                   map.energy,
                                                                   map.k_in_space,
-                                                                  {q.kernel[q.kernel.size() - 1], q.next}}};
+                                                                  {q.kernel[q.kernel.size() - 1], q.next},
+                                                                  {}}};
+    if (result.search) {
+        RegistrationRecord::WithHandles::Hyperbolic::Search& search = record.handles->hyperbolic->search.emplace();
+        for (const ClassSearch::Reached& r : result.search->reached)
+            search.reached.push_back({r.energy, r.homology_bound, r.twists, r.homology});
+        search.failed = result.search->failed;
+    }
     record.inverse_k = result.inverse_k;
     return record;
 }

@@ -159,9 +159,9 @@ struct TorusRecord {
     int flips = 0;                    ///< of edges to the intrinsic Delaunay triangulation
 };
 
-/// A closed surface of genus 2 or more with its metric of curvature −1.
+/// A surface with its metric of curvature −1.
 struct HyperbolicRecord {
-    double area = 0;      ///< 4π(genus − 1)
+    double area = 0;      ///< −2πχ
     double residual = 0;  ///< largest angle defect, radians
     int flips = 0;        ///< of edges to the intrinsic Delaunay triangulation
     int ptolemy_flips = 0;
@@ -172,7 +172,8 @@ struct HyperbolicRecord {
         std::vector<int> vertices;
     };
     std::vector<Generator> generators;
-    double relation = 0;  ///< how far their relation is from the identity
+    double relation = 0;           ///< how far their relation is from the identity
+    std::vector<double> boundary;  ///< lengths of the boundary loops, which are closed geodesics
 };
 
 /// A map with a prescribed coefficient.

@@ -163,13 +163,18 @@ Json to_object(const HyperbolicRecord& hyperbolic) {
                               {"matrix", {{number(m(0, 0)), number(m(0, 1))}, {number(m(1, 0)), number(m(1, 1))}}},
                               {"vertices", generator.vertices}});
     }
-    return {{"area", number(hyperbolic.area)},
-            {"residual", number(hyperbolic.residual)},
-            {"flips", hyperbolic.flips},
-            {"ptolemy_flips", hyperbolic.ptolemy_flips},
-            {"inverted", hyperbolic.inverted},
-            {"generators", std::move(generators)},
-            {"relation", number(hyperbolic.relation)}};
+    Json object = {{"area", number(hyperbolic.area)},
+                   {"residual", number(hyperbolic.residual)},
+                   {"flips", hyperbolic.flips},
+                   {"ptolemy_flips", hyperbolic.ptolemy_flips},
+                   {"inverted", hyperbolic.inverted},
+                   {"generators", std::move(generators)},
+                   {"relation", number(hyperbolic.relation)}};
+    if (!hyperbolic.boundary.empty()) {
+        object["boundary"] = Json::array();
+        for (const double length : hyperbolic.boundary) object["boundary"].push_back(number(length));
+    }
+    return object;
 }
 
 Json to_object(const RegistrationRecord& registration) {
@@ -194,6 +199,15 @@ Json to_object(const RegistrationRecord& registration) {
             object["energy"] = number(found->energy);
             object["k_in_space"] = number(found->k_in_space);
             object["eigenvalues"] = {number(found->eigenvalues[0]), number(found->eigenvalues[1])};
+            if (found->search) {
+                Json reached = Json::array();
+                for (const auto& r : found->search->reached)
+                    reached.push_back({{"energy", number(r.energy)},
+                                       {"homology_bound", number(r.homology_bound)},
+                                       {"twists", r.twists},
+                                       {"homology", to_rows(r.homology)}});
+                object["search"] = {{"reached", reached}, {"failed", found->search->failed}};
+            }
         }
     }
     object["flipped_in_space"] = registration.flipped_in_space;

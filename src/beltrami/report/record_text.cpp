@@ -104,11 +104,16 @@ std::string line_of(const TorusRecord& torus) {
 
 std::string lines_of(const HyperbolicRecord& hyperbolic) {
     std::string text = fmt::format(
-        "a metric of curvature -1, of area {:.6f}: angles are off by {:.1e} at most, the relation of the generators by "
-        "{:.1e}\nlengths of the generators:",
-        hyperbolic.area, hyperbolic.residual, hyperbolic.relation);
+        "a metric of curvature -1, of area {:.6f}: angles are off by {:.1e} at most{}\nlengths of the generators:",
+        hyperbolic.area, hyperbolic.residual,
+        hyperbolic.boundary.empty() ? fmt::format(", the relation of the generators by {:.1e}", hyperbolic.relation)
+                                    : std::string());
     for (const HyperbolicRecord::Generator& generator : hyperbolic.generators)
         text += fmt::format(" {:.6f}", generator.length);
+    text += "\n";
+    if (hyperbolic.boundary.empty()) return text;
+    text += "lengths of the boundary loops, which are closed geodesics:";
+    for (const double length : hyperbolic.boundary) text += fmt::format(" {:.6f}", length);
     return text + "\n";
 }
 
@@ -129,6 +134,13 @@ std::string lines_of(const RegistrationRecord::WithHandles& handles) {
             "weighted by |phi|, |mu| is {:.4f} with a deviation of {:.4f}; energies of harmonic forms ask for "
             "K = {:.5f} (estimate); the straight faces in space have k = {:.4f}\n",
             found->weighted_mean, found->weighted_deviation, found->homology_bound, found->k_in_space);
+    if (handles.hyperbolic && handles.hyperbolic->search) {
+        const auto& search = *handles.hyperbolic->search;
+        text += fmt::format("classes reached from {} starts, by energy (homology asks for K):",
+                            search.reached.size() + static_cast<std::size_t>(search.failed));
+        for (const auto& r : search.reached) text += fmt::format(" {:.4f} ({:.4f})", r.energy, r.homology_bound);
+        text += "\n";
+    }
     return text;
 }
 

@@ -15,7 +15,7 @@ struct RegistrationRecord {
     int landmarks = 0;
     /// Of closed surfaces.
     struct OnSphere {
-        int dimension = 0;                                 ///< complex, of the differentials
+        int dimension = 0;                                 ///< of the differentials: complex, with a boundary real
         double weighted_mean = 0, weighted_deviation = 0;  ///< of |μ| by |φ|
         double separation = 0;                             ///< least distance of two landmarks on the conformal spheres
     };
@@ -40,6 +40,17 @@ struct RegistrationRecord {
             double energy = 0;                                 ///< of the harmonic map of the class
             double k_in_space = 0;                             ///< of the straight faces
             std::array<double, 2> eigenvalues{};               ///< the largest of the kernel, and the next one
+            /// Where the class was sought: what was reached, by energy, and starts that failed.
+            struct Search {
+                struct Reached {
+                    double energy = 0, homology_bound = 1;
+                    int twists = 0;
+                    Eigen::MatrixXi homology;
+                };
+                std::vector<Reached> reached;
+                int failed = 0;
+            };
+            std::optional<Search> search;
         };
         std::optional<Hyperbolic> hyperbolic;
     };

@@ -215,6 +215,16 @@ SlidingStart sliding_start(const Surface& source, const CircleDomainChart& chart
     return start_from(turned(matched, chart, target, wanted), source, target, wanted, start_turns);
 }
 
+SlidingStart even_start(const Surface& source, const CircleDomainChart& chart, const TargetModel& target,
+                        const Correspondence& wanted, const std::vector<double>& start_turns) {
+    const LoopPartners matched = loop_partners(source, chart, target, wanted);
+    const Placement placed = place(matched, source, target, {}, start_turns);
+    SlidingStart result = started(matched, source, target, placed, placed.harmonic);
+    result.flips = folded(source, placed.harmonic);
+    result.factorizations = 1;
+    return result;
+}
+
 void hold_what_conformal_maps_move(std::vector<SlidingLoop>& loops, int outer, std::size_t marks) {
     const std::size_t holes = loops.size() - 1;
     const std::size_t free = holes == 0 ? 3 : holes == 1 ? 1 : 0;

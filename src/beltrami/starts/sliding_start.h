@@ -33,6 +33,11 @@ struct SlidingStart {
 SlidingStart sliding_start(const Surface& source, const CircleDomainChart& chart, const TargetModel& target,
                            const Correspondence& wanted, const std::vector<double>& start_turns = {});
 
+/// The same before anything is done about its folds: every circle evenly to its partner and, inside, the harmonic map.
+/// @param wanted without marks and waypoints
+SlidingStart even_start(const Surface& source, const CircleDomainChart& chart, const TargetModel& target,
+                        const Correspondence& wanted, const std::vector<double>& start_turns = {});
+
 /// Holds as many vertices of the outer loop as conformal maps of the source to itself leave free, spread evenly: one of
 /// an annulus, three of a disk, less the marks.
 /// @param outer the outer loop

@@ -7,6 +7,7 @@
 #include <beltrami/base/iteration_options.h>
 #include <beltrami/base/public.h>
 #include <beltrami/certificate/certificate.h>
+#include <beltrami/constraints/prescribed_split.h>
 #include <beltrami/differentials/quadratic_differential.h>
 #include <beltrami/forms/harmonic_basis.h>
 #include <beltrami/hyperbolic/equivariant_map.h>
@@ -18,22 +19,32 @@
 
 namespace beltrami BELTRAMI_PUBLIC {
 
-/// What is worked out once of a closed surface of genus 2 or more, whatever it is mapped to.
+/// What is worked out once of a surface with a metric of curvature −1, whatever it is mapped to: a closed one of genus
+/// 2 or more, or one with boundary loops and a negative Euler characteristic.
 class HyperbolicShape {
   public:
     /// @param surface kept by reference
-    /// @throw Error as hyperbolic_surface and harmonic_basis
+    /// @throw Error as hyperbolic_surface and harmonic_basis; bad_mesh for faces that are not triangles where edges are
+    ///        to be split
     explicit HyperbolicShape(const Surface& surface);
+    HyperbolicShape(const HyperbolicShape&) = delete;
+    HyperbolicShape& operator=(const HyperbolicShape&) = delete;
 
-    const Surface& surface() const { return surface_; }
+    /// The surface, with edges across it that join two boundary vertices split (split_bridges): along the boundary, a
+    /// geodesic, such triangles would have no area. Maps are of this one; its first vertices are the given ones.
+    const Surface& surface() const { return split_surface_ ? *split_surface_ : given_; }
+    /// As it was given.
+    const Surface& given() const { return given_; }
+    /// How it was split; nothing if there was no need.
+    const std::optional<SplitProblem>& split() const { return split_; }
     const HyperbolicSurface& metric() const { return metric_; }
     const HarmonicBasis& forms() const { return forms_; }
     /// What a class of maps onto it is told by.
-    EdgeGroup group() const { return {metric_.original, metric_.steps, surface_.topology, forms_.homology}; }
+    EdgeGroup group() const { return {metric_.original, metric_.steps, surface().topology, forms_.homology}; }
 
     /// The holomorphic quadratic differentials: products of 1-forms where these span them (holomorphic_products.h),
-    /// else the kernel of ∂̄, which tells in any case that none is missing (hyperbolic_space.h). Worked out when first
-    /// asked for, by one thread.
+    /// else the kernel of ∂̄, which tells in any case that none is missing (hyperbolic_space.h). Of surfaces with a
+    /// boundary that kernel, real along it. Worked out when first asked for, by one thread.
     struct Differentials {
         std::shared_ptr<const DifferentialSpace> space;
         Eigen::VectorXd kernel;  ///< 3g − 3 eigenvalues that are 0 but for the mesh
@@ -44,7 +55,9 @@ class HyperbolicShape {
     const Differentials& differentials() const;
 
   private:
-    const Surface& surface_;
+    const Surface& given_;
+    std::optional<SplitProblem> split_;
+    std::optional<Surface> split_surface_;
     HyperbolicSurface metric_;
     HarmonicBasis forms_;
     mutable std::optional<Differentials> differentials_;
@@ -55,7 +68,8 @@ struct HyperbolicMapOptions : IterationOptions {
     HyperbolicMapOptions() { max_iterations = 60; }
 };
 
-/// The extremal map between two closed surfaces of genus 2 or more in a class, and how good it is. `distortion` of the
+/// The extremal map between two surfaces in a class, along whose boundary, if there is one, it slides; and how good it
+/// is: of HyperbolicShape::surface() of the source, its places on the faces of the target as given. `distortion` of the
 /// base is that of the source's faces onto geodesic triangles of the target's hyperbolic metric; `map` is empty.
 struct HyperbolicMap : MapResult, CarriedSurface {
     double k = 0, K = 1;  ///< of the last c-step: estimates of k* and K*
@@ -69,18 +83,20 @@ struct HyperbolicMap : MapResult, CarriedSurface {
     Eigen::VectorXcd phi;                              ///< #S its values at the samples
     double weighted_mean = 0, weighted_deviation = 0;  ///< of |μ| by |φ|: k and 0 of the extremal map
     EquivariantMap equivariant;
-    Eigen::MatrixXi homology;  ///< 2g×2g: periods of the target's forms (columns) around images of the source's loops
+    Eigen::MatrixXi homology;  ///< periods of the target's forms (columns) around images of the source's loops
     double k_in_space = 0;     ///< the c-step of that map
     double energy = 0;         ///< of the harmonic map of the class, before the iteration
     int start_steps = 0;       ///< Newton steps to it
     std::vector<Iteration> history;
 };
 
-/// Hamilton's iteration over the 3g − 3 differentials of the source, its maps harmonic onto the hyperbolic metric of
-/// the target.
+/// Hamilton's iteration over the differentials of the source, its maps harmonic onto the hyperbolic metric of the
+/// target. There are 3g − 3 of a closed surface. One with a boundary is half of its double, whose genus is g: there are
+/// as many that are real along the boundary, and with real coefficients.
 /// @param start in the class wanted, anywhere (Marking::map)
-/// @throw Error bad_mesh unless both have the same genus and the source is of triangles; bad_option if the start turns
-///        the orientation round; not_solved, cancelled
+/// @throw Error bad_mesh unless both have the same genus and as many boundary loops, and the source is of triangles;
+///        bad_option if the start turns the orientation round or boundary loops do not go once around others;
+///        not_solved, cancelled
 HyperbolicMap hyperbolic_map(const HyperbolicShape& source, const HyperbolicShape& target, EquivariantMap start,
                              const HyperbolicMapOptions& options = {});
 

@@ -13,6 +13,7 @@
 #include <beltrami/targets/target_mesh.h>
 #include <beltrami/teichmuller/coarse_sliding_start.h>
 #include <beltrami/teichmuller/direct_map.h>
+#include <beltrami/teichmuller/hyperbolic_sliding_start.h>
 #include <beltrami/teichmuller/onto_annulus.h>
 #include <beltrami/teichmuller/onto_quadrilateral.h>
 
@@ -99,6 +100,18 @@ std::optional<ExtremalMap> OntoProblem::instead() const {
     return result;
 }
 
+/// Without a start that is given or found on a coarse mesh.
+SlidingStart OntoProblem::straight_start() const {
+    if (wanted_.marks.empty() && !wanted_.waypoints && source().topology.boundary_loops.size() > 2) {
+        SlidingStart even = even_start(source(), domain(), *target_, wanted_, options_.start_turns);
+        if (even.flips == 0) return even;
+        if (auto found =
+                hyperbolic_sliding_start(source(), *target_, even, edge_length_for(source(), target_->domain())))
+            return std::move(*found);
+    }
+    return sliding_start(source(), domain(), *target_, wanted_, options_.start_turns);
+}
+
 SlidingStart OntoProblem::start() const {
     std::optional<SlidingStart> result;
     if (options_.start)
@@ -106,7 +119,7 @@ SlidingStart OntoProblem::start() const {
             given_start(source(), target_->domain(),
                         split() ? with_parents_means(*options_.start, split()->parents) : *options_.start, wanted_);
     if (!result) result = coarse_sliding_start(source(), domain(), *target_, wanted_, options_);
-    if (!result) result = sliding_start(source(), domain(), *target_, wanted_, options_.start_turns);
+    if (!result) result = straight_start();
     hold_what_conformal_maps_move(result->loops, outer_loop(), marked_.size());
     return std::move(*result);
 }

@@ -29,6 +29,7 @@ class OntoProblem final : public SlidingProblem {
     void prove(ExtremalMap& result) const override;
 
   private:
+    SlidingStart straight_start() const;
     std::optional<ModulusBracket> ring_modulus_of_target() const;
     void make_target(const Surface& source, const Constraints& constraints, const TargetModel* given);
 

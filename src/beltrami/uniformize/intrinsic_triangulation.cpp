@@ -208,6 +208,30 @@ IntrinsicTriangulation IntrinsicTriangulation::without(int vertex) const {
     return part;
 }
 
+IntrinsicTriangulation IntrinsicTriangulation::doubled() const {
+    const int own = halfedge_count();
+    std::vector<char> inside(static_cast<std::size_t>(vertex_count_), 0);
+    for (int h = 0; h < own; ++h) inside[tail(h)] = 1;
+    for (int h = 0; h < own; ++h)
+        if (twin(h) < 0) inside[tail(h)] = inside[head(h)] = 0;
+    IntrinsicTriangulation result = *this;
+    std::vector<int> images(inside.size());
+    for (int v = 0; v < vertex_count_; ++v) images[v] = inside[v] ? result.vertex_count_++ : v;
+    result.tails_.resize(2 * tails_.size());
+    result.twins_.resize(2 * tails_.size());
+    result.log_lengths_.resize(2 * tails_.size());
+    for (int h = 0; h < own; ++h) {
+        const int image = mirrored(h, own);
+        result.tails_[image] = images[head(h)];
+        result.log_lengths_[image] = log_length(h);
+        if (twin(h) < 0)
+            result.glue(h, image);
+        else
+            result.twins_[image] = mirrored(twin(h), own);
+    }
+    return result;
+}
+
 int IntrinsicTriangulation::split_boundary(int h) {
     const int n = next(h), p = previous(h);
     const double base = log_lengths_[h], left = log_lengths_[p], right = log_lengths_[n];

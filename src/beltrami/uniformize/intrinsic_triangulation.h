@@ -5,9 +5,10 @@
 
 #include <Eigen/Core>
 
+#include <beltrami/base/public.h>
 #include <beltrami/mesh/mesh.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// Angles of a triangle given by its lengths.
 struct TriangleAngles {
@@ -98,6 +99,15 @@ class IntrinsicTriangulation {
 
     /// The triangulation less the triangles at a vertex, whose other edges then are boundary.
     IntrinsicTriangulation without(int vertex) const;
+
+    /// The triangulation glued to its mirror image along the boundary, whose vertices it keeps. Triangle t + #triangles
+    /// is the image of t, mirrored(h) that of half-edge h, running the other way; images of vertices inside follow in
+    /// their order after vertex_count() of before.
+    IntrinsicTriangulation doubled() const;
+    /// The image of a half-edge of a triangulation that was doubled, in it, from the image of the head to that of the
+    /// tail.
+    /// @param halfedges of the triangulation before
+    static int mirrored(int h, int halfedges) { return h - h % 3 + 2 - h % 3 + (h < halfedges ? 1 : -1) * halfedges; }
 
     /// Cuts the triangle at a boundary half-edge in two, from its apex to the foot of the perpendicular (to the middle
     /// of the edge if the foot is not well inside it): the surface stays what it is.

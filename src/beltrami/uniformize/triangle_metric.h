@@ -4,10 +4,11 @@
 
 #include <Eigen/Core>
 
+#include <beltrami/base/public.h>
 #include <beltrami/mesh/mesh.h>
 #include <beltrami/mesh/topology.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
 
 /// The point of a face corner; z = 0 for two columns.
 inline Eigen::Vector3d corner_point(const Positions& corners, int corner) {
