@@ -24,8 +24,8 @@ struct CriticalPoint {
 /// of φ, are not among them, nor zeros on faces that the chart excludes. Of prescribed boundary values φ is what fits
 /// the mesh best: its zeros well inside mean something, those within a few edges of the rim often do not.
 ///
-/// In an atlas of a closed surface, whose parts lie side by side, likewise; where the orders do not come to −2χ, as of a
-/// tabulated φ.
+/// In an atlas of a closed surface, whose parts lie side by side, likewise; where the orders do not come to −2χ, as of
+/// a tabulated φ.
 ///
 /// Of a tabulated φ, by what its argument turns from face to face around a vertex, less what the angles there turn, in
 /// the surface's own metric. A simple zero inside is placed where the linear function through the faces around has
