@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <utility>
 
 #include <beltrami/base/error.h>
 #include <beltrami/certificate/refined_problem.h>
@@ -20,6 +21,8 @@ namespace beltrami {
 namespace {
 
 constexpr double kTolerance = 1e-5, kToleranceOfK = 0.1;
+/// Steps that would narrow the bracket by less than this part are not worth while: k moves by 1e-5 of itself or less.
+constexpr double kWithinBracket = 3e-3;
 constexpr int kFlowSteps = 20;
 constexpr double kLeastSeparation = 1e-3;  // of landmarks on the sphere
 constexpr int kStepsBack = 3;              // on the mesh itself after one that is finer around landmarks
@@ -215,7 +218,9 @@ Settled settle(const Surface& surface, SphereProblem& problem, const Positions& 
         result.iterations = soft.settle();
         result.residual = (soft.places() - landmarks.images).rowwise().norm().maxCoeff();
     }
-    const HamiltonIteration iteration = problem.settle(step, iteration_options(options));
+    HamiltonIteration::Options how = iteration_options(options);
+    if (!landmarks.soft() && !(options.tolerance > 0)) how.within_bracket = kWithinBracket;
+    const HamiltonIteration iteration = problem.settle(step, std::move(how));
     result.last = iteration.last_step();
     result.held_up = step.last_length() < kHeldUp && result.last.k > kTolerance;
     result.converged = iteration.converged();

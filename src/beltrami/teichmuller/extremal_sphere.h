@@ -23,8 +23,8 @@ struct SphereLandmark {
 };
 
 struct ExtremalSphereOptions : IterationOptions {
-    // tolerance: stop when φ changes by less than this and k by less than a tenth of it. 0: 1e-5. anderson_window has
-    // no effect.
+    // tolerance: stop when φ changes by less than this and k by less than a tenth of it. 0: 1e-5, or, without soft
+    // landmarks, once both no longer matter beside the bracket of K. anderson_window has no effect.
     ExtremalSphereOptions() { max_iterations = 40; }
 
     int cluster_count = 1500;  ///< quadrature points of the c-step on large meshes, at least 100
