@@ -14,8 +14,9 @@ constexpr double kThickness = 0.6;
 
 beltrami::Mesh cad_part(double edge) {
     using namespace beltrami;
-    const TargetDomain outline{TargetCurve::polygon({{0, 0}, {3, 0}, {3, 1}, {1.2, 1}, {1.2, 2.5}, {0, 2.5}}),
-                               {TargetCurve::circle({0.6, 1.8}, 0.32), TargetCurve::circle({2.3, 0.5}, 0.25)}};
+    const TargetDomain outline =
+        target_domain(TargetCurve::polygon({{0, 0}, {3, 0}, {3, 1}, {1.2, 1}, {1.2, 2.5}, {0, 2.5}}),
+                      {TargetCurve::circle({0.6, 1.8}, 0.32), TargetCurve::circle({2.3, 0.5}, 0.25)});
     TargetMeshOptions options;
     options.edge_length = edge;
     const TargetMesh plate = target_mesh(outline, options);

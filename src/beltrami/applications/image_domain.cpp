@@ -1,6 +1,7 @@
 #include <beltrami/applications/image_domain.h>
 
 #include <cmath>
+#include <utility>
 
 #include <beltrami/base/error.h>
 #include <beltrami/plane/circle_fit.h>
@@ -35,10 +36,10 @@ TargetDomain image_domain(const Surface& source, const Eigen::VectorXcd& map) {
         for (const int v : loop) points.push_back(map[v]);
         if (std::abs(signed_area(points)) > std::abs(signed_area(images[outer]))) outer = images.size() - 1;
     }
-    TargetDomain domain{curve_of(loops[outer], images[outer]), {}};
+    std::vector<TargetCurve> holes;
     for (std::size_t l = 0; l < loops.size(); ++l)
-        if (l != outer) domain.holes.push_back(curve_of(loops[l], images[l]));
-    return domain;
+        if (l != outer) holes.push_back(curve_of(loops[l], images[l]));
+    return target_domain(curve_of(loops[outer], images[outer]), std::move(holes));
 }
 
 }  // namespace beltrami
