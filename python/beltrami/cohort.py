@@ -9,7 +9,6 @@ docs/cohorts.md is the guide.
 from __future__ import annotations
 
 import argparse
-import hashlib
 import importlib
 import json
 import os
@@ -17,106 +16,18 @@ import pickle
 import re
 import sys
 import time
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Callable, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _core
-from .errors import BadBoundary, BadOption, Error
+from .checkpoint import Outcome, PairFile, digest_of, digest_of_file, kept, write
+from .distances import Distances
+from .errors import BadBoundary, BadOption, Error, NotSolved
 
 PathLike = Union[str, "os.PathLike[str]"]
-Array = Any  # an array of NumPy
 Progress = Callable[[int, int], object]
-
-
-@dataclass
-class Outcome:
-    """What became of one job: its value, or why there is none."""
-
-    id: str
-    value: Any = None
-    cause: Optional[str] = None
-    message: Optional[str] = None
-    seconds: float = 0.0
-
-    @property
-    def done(self) -> bool:
-        return self.cause is None
-
-
-@dataclass
-class Distances:
-    """Teichmüller's distances ½ log K* of a cohort, with their brackets."""
-
-    names: List[str]
-    distance: Array
-    lower: Array
-    upper: Array
-    unsettled: List[Tuple[int, int]] = field(default_factory=list)
-
-    def tree(self) -> Array:
-        """Hierarchical clustering by mean distances (average linkage), as scipy.cluster.hierarchy has it."""
-        from scipy.cluster.hierarchy import linkage
-        from scipy.spatial.distance import squareform
-
-        return linkage(squareform(self.distance, checks=False), "average")
-
-    def clusters(self, count: int) -> Array:
-        """n numbers from 1: the clusters when the tree is cut into so many."""
-        from scipy.cluster.hierarchy import fcluster
-
-        return fcluster(self.tree(), count, "maxclust")
-
-    def mds(self, dimensions: int = 2) -> Tuple[Array, Array]:
-        """Classical multidimensional scaling (Torgerson 1952): n×dimensions places, and all eigenvalues, largest first;
-        negative ones tell how far the distances are from those of any Euclidean space. The sign of an axis is chosen
-        so that its largest coordinate is positive."""
-        n = len(self.names)
-        centre = np.eye(n) - 1.0 / n
-        values, vectors = np.linalg.eigh(-0.5 * centre @ self.distance**2 @ centre)
-        values, vectors = values[::-1], vectors[:, ::-1]
-        places = vectors[:, :dimensions] * np.sqrt(np.maximum(values[:dimensions], 0))
-        for axis in places.T:
-            axis *= np.sign(axis[np.argmax(np.abs(axis))]) or 1
-        return places, values
-
-    def plot(self, path: Optional[PathLike] = None, clusters: int = 3) -> Any:
-        """The places of mds() coloured by cluster, beside the tree. Returns the figure. Needs matplotlib."""
-        from matplotlib import pyplot
-        from scipy.cluster.hierarchy import dendrogram
-
-        figure, (left, right) = pyplot.subplots(1, 2, figsize=(11, max(4.5, 0.13 * len(self.names))))
-        places, values = self.mds()
-        left.scatter(*places.T, c=self.clusters(min(clusters, len(self.names))), cmap="tab10")
-        if len(self.names) <= 60:
-            for name, place in zip(self.names, places):
-                left.annotate(name, place, fontsize=6, xytext=(3, 3), textcoords="offset points")
-        explained = values[:2].sum() / np.abs(values).sum() if np.abs(values).sum() > 0 else 1.0
-        left.set(aspect="equal", title=f"classical MDS, {100 * explained:.0f} % of the eigenvalues")
-        dendrogram(self.tree(), labels=self.names, orientation="left", ax=right, leaf_font_size=6)
-        right.set_title("average linkage of ½ log K*")
-        figure.tight_layout()
-        if path is not None:
-            figure.savefig(os.fspath(path), dpi=110)
-        return figure
-
-    def save(self, folder: PathLike) -> None:
-        """distances.csv, and distances.json with the brackets."""
-        folder = Path(folder)
-        folder.mkdir(parents=True, exist_ok=True)
-        rows = [",".join(["", *self.names])]
-        rows += [",".join([name, *map(repr, row)]) for name, row in zip(self.names, self.distance.tolist())]
-        _write(folder / "distances.csv", ("\n".join(rows) + "\n").encode())
-        record = {
-            "names": self.names,
-            "distance": self.distance.tolist(),
-            "lower": self.lower.tolist(),
-            "upper": self.upper.tolist(),
-            "unsettled": [list(pair) for pair in self.unsettled],
-        }
-        _write(folder / "distances.json", json.dumps(record).encode())
 
 
 def run(
@@ -140,10 +51,10 @@ def run(
     for name in jobs:
         if not re.fullmatch(r"\w[\w.-]{0,199}", name):
             raise BadOption(f"the id {name!r} is no name of a file: use letters, digits, '.', '_' and '-'")
-    outcomes = {name: outcome for name in jobs if (outcome := _kept(folder / f"{name}.pickle", jobs[name], retry))}
+    outcomes = {name: outcome for name in jobs if (outcome := kept(folder / f"{name}.pickle", jobs[name], retry))}
     waiting = {name: argument for name, argument in jobs.items() if name not in outcomes}
     for name, outcome in _results(function, waiting, client):
-        _write(folder / f"{name}.pickle", pickle.dumps((_digest(jobs[name]), outcome)))
+        write(folder / f"{name}.pickle", pickle.dumps((digest_of(jobs[name]), outcome)))
         outcomes[name] = outcome
         if progress is not None:
             progress(len(outcomes), len(jobs))
@@ -179,9 +90,9 @@ def distance_matrix(
     folder = None if checkpoint is None else Path(checkpoint).resolve()
     if folder is not None:
         (folder / "charts").mkdir(parents=True, exist_ok=True)
-    digests = [_digest_of_file(file) for file in files]
+    digests = [digest_of_file(file) for file in files]
     text = json.dumps([outer, options], sort_keys=True, default=repr)
-    found = _PairFile(folder, text)
+    found = PairFile(folder, text)
     n = len(files)
     pairs = [(i, j) for i in range(n) for j in range(i + 1, n)]
     done = len([1 for i, j in pairs if found.get(digests[i], digests[j])])
@@ -221,9 +132,10 @@ def _prepared(path: str, chart: Optional[str], outer: int) -> _core.Surface:
     """The surface of a file with its charts, from the checkpoint where it is there."""
     if chart is not None:
         try:
-            kept: _core.Surface = pickle.loads(Path(chart).read_bytes())
-            return kept
-        except FileNotFoundError:
+            found: object = pickle.loads(Path(chart).read_bytes())
+            if isinstance(found, _core.Surface):
+                return found
+        except Exception:  # not there, or of another version of the library
             pass
     try:
         surface = _core.Surface(_core.read_mesh(path))
@@ -232,7 +144,7 @@ def _prepared(path: str, chart: Optional[str], outer: int) -> _core.Surface:
     except Error as error:
         raise _named(error, path) from None
     if chart is not None:
-        _write(Path(chart), pickle.dumps(surface))
+        write(Path(chart), pickle.dumps(surface))
     return surface
 
 
@@ -280,7 +192,10 @@ def _pairs(
     }
     try:
         for future in distributed.as_completed(futures):
-            yield futures[future], future.result()
+            i, j = futures[future]
+            if future.status == "error" and not isinstance(future.exception(), Error):  # the workers died of it
+                raise NotSolved(f"{names[i]} and {names[j]}: {future.exception()}")
+            yield (i, j), future.result()
             future.release()
     finally:  # of an error: what is left is not computed
         client.cancel(list(futures))
@@ -319,76 +234,10 @@ def _distributed() -> Any:
     return importlib.import_module("distributed")
 
 
-# What is kept.
-
-
-class _PairFile:
-    """Distances by the contents of two files and the options: a line of JSON each, of which a last one that is cut
-    short is passed over."""
-
-    def __init__(self, folder: Optional[Path], options: str) -> None:
-        self.options = hashlib.sha256(options.encode()).hexdigest()[:16]
-        self.rows: Dict[Tuple[str, str], List[Any]] = {}
-        self.path = None if folder is None else folder / "pairs.jsonl"
-        if self.path is None or not self.path.exists():
-            return
-        for line in self.path.read_text(encoding="utf-8").splitlines():
-            try:
-                row = json.loads(line)
-                if row["options"] == self.options:
-                    self.rows[row["a"], row["b"]] = [*map(float, row["distance"]), bool(row["settled"])]
-            except (ValueError, KeyError, TypeError):
-                continue
-
-    def get(self, a: str, b: str) -> Optional[List[Any]]:
-        return self.rows.get((a, b))
-
-    def add(self, a: str, b: str, row: List[Any]) -> None:
-        self.rows[a, b] = row
-        if self.path is None:
-            return
-        line = json.dumps({"a": a, "b": b, "options": self.options, "distance": row[:3], "settled": row[3]})
-        with self.path.open("ab") as file:
-            file.write(b"\n" + line.encode())  # before it: what was cut short stays a line of its own
-
-
-def _kept(path: Path, argument: Any, retry: bool) -> Optional[Outcome]:
-    try:
-        digest, outcome = pickle.loads(path.read_bytes())
-    except (FileNotFoundError, EOFError, pickle.UnpicklingError, ValueError):
-        return None
-    if digest != _digest(argument) or not isinstance(outcome, Outcome) or (retry and not outcome.done):
-        return None
-    return outcome
-
-
-def _digest(argument: Any) -> str:
-    return hashlib.sha256(pickle.dumps(argument, protocol=4)).hexdigest()
-
-
-def _digest_of_file(path: str) -> str:
-    try:
-        return hashlib.sha256(Path(path).read_bytes()).hexdigest()[:24]
-    except OSError as error:
-        from .errors import Unreadable
-
-        raise Unreadable(f"{path} cannot be read: {error.strerror}") from None
-
-
 def _labels(files: List[str]) -> List[str]:
     """The names of files without folders and extensions, or, where two are alike, the files."""
     stems = [Path(file).stem for file in files]
     return stems if len(set(stems)) == len(stems) else files
-
-
-def _write(path: Path, data: bytes) -> None:
-    """A whole file, or none."""
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.{time.monotonic_ns()}.tmp")
-    try:
-        temporary.write_bytes(data)
-        os.replace(temporary, path)
-    finally:
-        temporary.unlink(missing_ok=True)
 
 
 class _Bar:
