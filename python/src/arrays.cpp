@@ -202,6 +202,87 @@ Eigen::MatrixXi whole_table(const py::object& object, const char* name, int colu
         values.data(), array.shape(0), columns);
 }
 
+std::vector<std::array<int, 2>> whole_pairs(const py::object& object, const char* name) {
+    const Eigen::MatrixXi rows = whole_table(object, name, 2);
+    std::vector<std::array<int, 2>> pairs;
+    for (Eigen::Index i = 0; i < rows.rows(); ++i) pairs.push_back({rows(i, 0), rows(i, 1)});
+    return pairs;
+}
+
+std::vector<int> vertex_list(const py::object& object, const char* name, int vertex_count) {
+    std::vector<int> list = whole_numbers(object, name), bad;
+    for (const int v : list)
+        if (v < 0 || v >= vertex_count) bad.push_back(v);
+    if (!bad.empty())
+        throw Error(Cause::bad_option, std::string(name) + ": there is no vertex " + std::to_string(bad[0]),
+                    "vertices are counted from 0, and there are " + std::to_string(vertex_count),
+                    {Things::vertices, bad});
+    return list;
+}
+
+std::vector<std::vector<int>> vertex_lists(const py::object& object, const char* name, int vertex_count) {
+    if (!py::isinstance<py::iterable>(object)) throw py::type_error(std::string(name) + " are lists of vertices");
+    std::vector<std::vector<int>> lists;
+    for (const py::handle item : object)
+        lists.push_back(vertex_list(py::reinterpret_borrow<py::object>(item), name, vertex_count));
+    return lists;
+}
+
+Eigen::MatrixXcd complex_table(const py::object& object, const char* name, int rows) {
+    const py::array array = array_from(object, name, kComplex, "numbers");
+    if (array.ndim() != 2 || array.shape(0) != rows)
+        throw Error(Cause::bad_option, std::string(name) + " has the shape " + shape_of(array),
+                    "give " + std::to_string(rows) + " rows");
+    using Table = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    const py::array_t<Complex, py::array::c_style | py::array::forcecast> values(
+        py::reinterpret_borrow<py::object>(array));
+    return Eigen::Map<const Table>(values.data(), rows, values.shape(1));
+}
+
+Positions points_of(const py::object& object, const char* name, int rows, int columns) {
+    Positions result = points_of(object, name, columns);
+    if (result.rows() != rows)
+        throw Error(Cause::bad_option, std::string(name) + " has " + std::to_string(result.rows()) +
+                                           " rows, and is to have " + std::to_string(rows));
+    return result;
+}
+
+Positions points_of(const py::object& object, const char* name, int columns) {
+    Positions result = points(object, name);
+    if (columns == 3 && result.cols() == 2) {
+        result.conservativeResize(Eigen::NoChange, 3);
+        result.col(2).setZero();
+    }
+    if (result.cols() != columns)
+        throw Error(Cause::bad_option, std::string(name) + " is to have " + std::to_string(columns) + " columns");
+    return result;
+}
+
+py::array number_array(const std::vector<double>& values) {
+    return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
+}
+
+py::array complex_array(const std::vector<Complex>& values) {
+    return py::array_t<Complex>(static_cast<py::ssize_t>(values.size()), values.data());
+}
+
+py::array parents_array(const std::vector<std::array<int, 4>>& parents) {
+    py::array_t<int> result({static_cast<py::ssize_t>(parents.size()), py::ssize_t{4}});
+    for (std::size_t i = 0; i < parents.size(); ++i)
+        for (int j = 0; j < 4; ++j) result.mutable_at(static_cast<py::ssize_t>(i), j) = parents[i][j];
+    return result;
+}
+
+py::list index_lists(const std::vector<std::vector<int>>& lists) {
+    py::list result;
+    for (const std::vector<int>& list : lists) result.append(index_array(list));
+    return result;
+}
+
+py::tuple texture_tuple(const TextureCoordinates& texture) {
+    return py::make_tuple(texture.points, index_array(texture.corners));
+}
+
 py::array pairs_array(const std::vector<std::array<int, 2>>& pairs) {
     py::array_t<int> result({static_cast<py::ssize_t>(pairs.size()), py::ssize_t{2}});
     for (std::size_t i = 0; i < pairs.size(); ++i)
@@ -217,120 +298,6 @@ py::array flag_array(const std::vector<char>& values) {
     py::array_t<bool> result(static_cast<py::ssize_t>(values.size()));
     for (std::size_t i = 0; i < values.size(); ++i) result.mutable_at(static_cast<py::ssize_t>(i)) = values[i] != 0;
     return result;
-}
-
-void require_on(const Mesh& mesh, const Places& places) {
-    std::vector<int> bad;
-    for (std::size_t i = 0; i < places.points.size(); ++i) {
-        const MeshPoint& place = places.points[i];
-        bool good = place.face >= 0 && place.face < mesh.face_count();
-        if (good) {
-            const std::span<const int> face = mesh.faces[place.face];
-            for (int j = 0; j < 3; ++j)
-                good = good && std::isfinite(place.barycentric[j]) &&
-                       std::find(face.begin(), face.end(), place.vertices[j]) != face.end();
-        }
-        if (!good) bad.push_back(static_cast<int>(i));
-    }
-    if (!bad.empty())
-        throw Error(Cause::bad_option, "places are not on the mesh, the first is place " + std::to_string(bad[0]), {},
-                    {Things::points, bad});
-}
-
-namespace {
-
-Places places_from(const py::object& face, const py::object& vertices, const py::object& barycentric) {
-    const std::vector<int> faces = whole_numbers(face, "face");
-    const Eigen::MatrixXi corners = whole_table(vertices, "vertices", 3);
-    const Positions weights = table(barycentric, "barycentric", static_cast<int>(faces.size()));
-    if (corners.rows() != weights.rows() || weights.cols() != 3)
-        throw Error(Cause::bad_option, "face, vertices and barycentric disagree about the number of places",
-                    "give n faces, n×3 vertices and n×3 barycentric coordinates");
-    Places places;
-    for (std::size_t i = 0; i < faces.size(); ++i) {
-        MeshPoint point;
-        point.face = faces[i];
-        for (int j = 0; j < 3; ++j) {
-            point.vertices[j] = corners(static_cast<Eigen::Index>(i), j);
-            point.barycentric[j] = weights(static_cast<Eigen::Index>(i), j);
-        }
-        places.points.push_back(point);
-    }
-    return places;
-}
-
-py::array interpolate(const Places& places, const py::object& values) {
-    py::array array = py::array::ensure(values);
-    if (!array || array.ndim() < 1 || array.ndim() > 2) {
-        PyErr_Clear();
-        throw Error(Cause::bad_option, "values are no numbers of the vertices", "give #V or #V×m of them");
-    }
-    for (const MeshPoint& place : places.points)
-        for (const int v : place.vertices)
-            if (v < 0 || v >= array.shape(0))
-                throw Error(Cause::bad_option,
-                            "there are " + std::to_string(array.shape(0)) + " values, and a place at vertex " +
-                                std::to_string(v),
-                            "give one for each vertex of the mesh");
-    const bool complex = array.dtype().kind() == 'c';
-    const py::ssize_t columns = array.ndim() == 2 ? array.shape(1) : 1;
-    const auto count = static_cast<Eigen::Index>(places.points.size());
-    const auto combine = [&](auto zero) {
-        using Number = decltype(zero);
-        using Table = Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-        const py::array_t<Number, py::array::c_style | py::array::forcecast> rows(
-            py::reinterpret_borrow<py::object>(array));
-        const Eigen::Map<const Table> from(rows.data(), rows.shape(0), columns);
-        Table result = Table::Zero(count, columns);
-        for (Eigen::Index i = 0; i < count; ++i)
-            for (int j = 0; j < 3; ++j)
-                result.row(i) += places.points[i].barycentric[j] * from.row(places.points[i].vertices[j]);
-        return py::cast(std::move(result)).template cast<py::array>();
-    };
-    const py::array result = complex ? combine(Complex(0)) : combine(0.0);
-    if (array.ndim() == 2) return result;
-    return result.attr("reshape")(-1).cast<py::array>();
-}
-
-}  // namespace
-
-void bind_places(py::module_& m) {
-    py::class_<Places>(m, "Places", "n places of a mesh, each in a face.")
-        .def(py::init(&places_from), py::arg("face"), py::arg("vertices"), py::arg("barycentric"),
-             "From n faces, n×3 of their vertices and n×3 barycentric coordinates with respect to these.")
-        .def_property_readonly(
-            "face",
-            [](const Places& places) {
-                std::vector<int> faces;
-                for (const MeshPoint& point : places.points) faces.push_back(point.face);
-                return index_array(faces);
-            },
-            "n faces; -1: nowhere")
-        .def_property_readonly(
-            "vertices",
-            [](const Places& places) {
-                Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor> result(places.points.size(), 3);
-                for (std::size_t i = 0; i < places.points.size(); ++i)
-                    for (int j = 0; j < 3; ++j) result(static_cast<Eigen::Index>(i), j) = places.points[i].vertices[j];
-                return py::cast(std::move(result)).cast<py::array>();
-            },
-            "n×3 vertices of these faces")
-        .def_property_readonly(
-            "barycentric",
-            [](const Places& places) {
-                Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> result(places.points.size(), 3);
-                for (std::size_t i = 0; i < places.points.size(); ++i)
-                    for (int j = 0; j < 3; ++j)
-                        result(static_cast<Eigen::Index>(i), j) = places.points[i].barycentric[j];
-                return py::cast(std::move(result)).cast<py::array>();
-            },
-            "n×3 barycentric coordinates with respect to vertices")
-        .def("interpolate", &interpolate, py::arg("values"),
-             "Values there of a function that is linear between the vertices.\n\nvalues: #V or #V×m numbers, real or "
-             "complex. Returns n or n×m.")
-        .def("__len__", [](const Places& places) { return places.points.size(); })
-        .def("__repr__",
-             [](const Places& places) { return "<beltrami.Places: " + std::to_string(places.points.size()) + ">"; });
 }
 
 }  // namespace beltrami::python

@@ -33,12 +33,28 @@ Positions table(const py::object& object, const char* name, int count);
 std::vector<int> whole_numbers(const py::object& object, const char* name);
 /// n×columns of them.
 Eigen::MatrixXi whole_table(const py::object& object, const char* name, int columns);
+/// n×2 of them, as pairs.
+std::vector<std::array<int, 2>> whole_pairs(const py::object& object, const char* name);
+/// n vertices of a mesh. @throw Error bad_option naming those that do not exist
+std::vector<int> vertex_list(const py::object& object, const char* name, int vertex_count);
+/// Lists of vertices. @throw as vertex_list
+std::vector<std::vector<int>> vertex_lists(const py::object& object, const char* name, int vertex_count);
+/// rows×any complex numbers. @throw Error bad_option
+Eigen::MatrixXcd complex_table(const py::object& object, const char* name, int rows);
+/// Positions of wanted shape; z = 0 is added where @p columns is 3 and there are two. @throw Error bad_option
+Positions points_of(const py::object& object, const char* name, int rows, int columns);
+Positions points_of(const py::object& object, const char* name, int columns);
 
-/// n×2 for {x, y}.
-py::array_t<double> array_of(const std::vector<std::array<int, 2>>&) = delete;
 py::array pairs_array(const std::vector<std::array<int, 2>>& pairs);
 py::array index_array(const std::vector<int>& values);
 py::array flag_array(const std::vector<char>& values);
+py::array number_array(const std::vector<double>& values);
+py::array complex_array(const std::vector<Complex>& values);
+/// n×4 parents of vertices, −1 where there are fewer.
+py::array parents_array(const std::vector<std::array<int, 4>>& parents);
+py::list index_lists(const std::vector<std::vector<int>>& lists);
+/// Texture coordinates as Mesh(texture=…) takes them: points and corners.
+py::tuple texture_tuple(const TextureCoordinates& texture);
 
 /// A read-only view of a matrix or vector that belongs to @p owner.
 template <class Matrix>
@@ -50,7 +66,6 @@ py::array view(const Matrix& matrix, const py::handle& owner) {
 struct Places {
     std::vector<MeshPoint> points;
 };
-void bind_places(py::module_& m);
 /// @throw Error bad_option naming places that are not on the mesh
 void require_on(const Mesh& mesh, const Places& places);
 

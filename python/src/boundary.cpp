@@ -36,10 +36,7 @@ CornerOptions corner_options(const py::kwargs& given) {
 }
 
 py::tuple split_tuple(SplitProblem split) {
-    py::array_t<int> parents({static_cast<py::ssize_t>(split.parents.size()), py::ssize_t{4}});
-    for (std::size_t i = 0; i < split.parents.size(); ++i)
-        for (int j = 0; j < 4; ++j) parents.mutable_at(static_cast<py::ssize_t>(i), j) = split.parents[i][j];
-    return py::make_tuple(make_surface(std::move(split.mesh), std::move(split.metric)), parents,
+    return py::make_tuple(make_surface(std::move(split.mesh), std::move(split.metric)), parents_array(split.parents),
                           index_array(split.face_parents));
 }
 
@@ -131,6 +128,9 @@ void bind_boundary(py::module_& m) {
             return "<beltrami.BoundaryCorner: vertex " + std::to_string(corner.vertex) + ", K* ≥ " +
                    std::to_string(corner.corner_bound) + ">";
         });
+    m.def("edges_to_next_corner", &edges_to_next_corner, py::arg("corner"), py::arg("corners"), py::arg("loop_size"),
+          "Edges from a BoundaryCorner to the nearest other one of its loop, at most half the loop.\n\nloop_size: "
+          "vertices of the loop.");
     m.def(
         "find_corners",
         [](const SurfacePtr& surface, const BoundaryCondition& boundary, const py::kwargs& given) {

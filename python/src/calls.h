@@ -33,6 +33,11 @@ class Interruption {
             return answer.is_none() || answer.cast<bool>();
         });
     }
+    /// Runs something of Python's with the lock held; what it raises, or false, ends the computation.
+    bool run(const std::function<bool()>& body) {
+        const py::gil_scoped_acquire lock;
+        return guarded(body);
+    }
     /// Raises what has ended the computation, if anything has. The lock is held.
     void raise();
 
@@ -40,6 +45,18 @@ class Interruption {
     bool guarded(const std::function<bool()>& body);
 
     std::optional<py::error_already_set> raised_;
+};
+
+/// A function of Python's that is kept, and let go of, on any thread. Whoever calls it takes the lock.
+struct HeldFunction {
+    py::function function;
+
+    explicit HeldFunction(py::function given) : function(std::move(given)) {}
+    HeldFunction(const HeldFunction&) = delete;
+    ~HeldFunction() {
+        const py::gil_scoped_acquire lock;
+        function = py::function();
+    }
 };
 
 /// Runs a long computation without the interpreter's lock; Ctrl-C ends it.
@@ -62,6 +79,16 @@ template <class Body>
 auto without_lock(const Body& body) {
     Interruption interruption;
     return without_lock(interruption, body);
+}
+
+/// What an object is in C++. @throw TypeError with @p what in its sentence
+template <class T>
+T value_of(const py::handle& object, const char* what) {
+    try {
+        return object.cast<T>();
+    } catch (const py::cast_error&) {
+        throw py::type_error(what);
+    }
 }
 
 /// Options by keyword: each is taken by its name in C++, and what is left over is an error.

@@ -2,19 +2,34 @@
 #include <beltrami/charts/domain_chart.h>
 #include <beltrami/charts/round_disk.h>
 #include <beltrami/charts/uniformization.h>
-#include <beltrami/plane/disk_moebius.h>
 #include <beltrami/uniformize/flatten.h>
+#include <beltrami/uniformize/fold_free_flattening.h>
 
+#include "charts.h"
 #include "extremal_map.h"
 #include "module.h"
 
 namespace beltrami::python {
 
-namespace {
-
 py::tuple hole_tuple(const RoundHole& hole) {
     return py::make_tuple(hole.loop, hole.centre, hole.radius);
 }
+
+RoundHole hole_from(const py::handle& object) {
+    constexpr const char* kWanted = "a hole is (loop, centre, radius) or (centre, radius)";
+    const auto tuple = value_of<py::tuple>(object, kWanted);
+    if (tuple.size() != 2 && tuple.size() != 3) throw py::type_error(kWanted);
+    const std::size_t first = tuple.size() - 2;
+    RoundHole hole;
+    if (first == 1) hole.loop = value_of<int>(tuple[0], kWanted);
+    hole.centre = value_of<Complex>(tuple[first], kWanted);
+    hole.radius = value_of<double>(tuple[first + 1], kWanted);
+    if (!(hole.radius > 0 && std::abs(hole.centre) + hole.radius < 1))
+        throw Error(Cause::bad_option, "a hole does not lie within the unit disk");
+    return hole;
+}
+
+namespace {
 
 py::list hole_list(const std::vector<RoundHole>& holes) {
     py::list list;
@@ -22,22 +37,10 @@ py::list hole_list(const std::vector<RoundHole>& holes) {
     return list;
 }
 
-/// Of (loop, centre, radius) or (centre, radius).
 std::vector<RoundHole> holes_from(const py::object& object) {
+    if (!py::isinstance<py::iterable>(object)) throw py::type_error("holes are a list of (loop, centre, radius)");
     std::vector<RoundHole> holes;
-    for (const py::handle item : object) {
-        const auto tuple = item.cast<py::tuple>();
-        if (tuple.size() != 2 && tuple.size() != 3)
-            throw py::type_error("a hole is (loop, centre, radius) or (centre, radius)");
-        const std::size_t first = tuple.size() - 2;
-        RoundHole hole;
-        if (first == 1) hole.loop = tuple[0].cast<int>();
-        hole.centre = tuple[first].cast<Complex>();
-        hole.radius = tuple[first + 1].cast<double>();
-        if (!(hole.radius > 0 && std::abs(hole.centre) + hole.radius < 1))
-            throw Error(Cause::bad_option, "a hole does not lie within the unit disk");
-        holes.push_back(hole);
-    }
+    for (const py::handle item : object) holes.push_back(hole_from(item));
     return holes;
 }
 
@@ -103,6 +106,16 @@ ConformalPtr disk_chart(const SurfacePtr& surface) {
     });
 }
 
+ConformalPtr in_plane(const SurfacePtr& surface) {
+    require_genus_zero(surface->surface);
+    if (!surface->surface.in_plane()) throw Error(Cause::bad_mesh, "the surface does not lie in the plane");
+    return without_lock([&] {
+        Chart chart = plane_chart(surface->surface);
+        return std::make_shared<ConformalObject>(surface, "plane chart", std::move(chart.vertices),
+                                                 std::move(chart.warnings));
+    });
+}
+
 ConformalPtr domain(const SurfacePtr& surface, int outer_loop) {
     require_loop(*surface, outer_loop);
     return without_lock([&] {
@@ -111,7 +124,7 @@ ConformalPtr domain(const SurfacePtr& surface, int outer_loop) {
     });
 }
 
-ConformalPtr flattened(const SurfacePtr& surface, const py::object& angles, double tolerance, int max_iterations) {
+FlattenOptions flatten_options(const py::object& angles, double tolerance, int max_iterations) {
     FlattenOptions options;
     options.tolerance = tolerance;
     options.max_iterations = max_iterations;
@@ -120,14 +133,31 @@ ConformalPtr flattened(const SurfacePtr& surface, const py::object& angles, doub
         options.boundary_angles.assign(list.begin(), list.end());
         if (list.size() == 0) throw Error(Cause::bad_option, "boundary_angles are empty");
     }
+    return options;
+}
+
+ConformalPtr object_of(const SurfacePtr& surface, const char* method, Flattening flat) {
+    auto object = std::make_shared<ConformalObject>(surface, method, std::move(flat.positions), Warnings());
+    object->log_scale = std::move(flat.log_scale);
+    object->residual = flat.residual;
+    return object;
+}
+
+ConformalPtr flattened(const SurfacePtr& surface, const py::object& angles, double tolerance, int max_iterations) {
+    const FlattenOptions options = flatten_options(angles, tolerance, max_iterations);
     return without_lock([&] {
         const Surface& source = surface->surface;
-        Flattening flat = source.metric ? flatten(source.mesh, *source.metric, options) : flatten(source.mesh, options);
-        auto object = std::make_shared<ConformalObject>(surface, "flatten", std::move(flat.positions), Warnings());
-        object->log_scale = std::move(flat.log_scale);
-        object->residual = flat.residual;
-        return object;
+        return object_of(surface, "flatten",
+                         source.metric ? flatten(source.mesh, *source.metric, options) : flatten(source.mesh, options));
     });
+}
+
+py::tuple fold_free(const SurfacePtr& surface, const py::object& angles, double tolerance, int max_iterations) {
+    const FlattenOptions options = flatten_options(angles, tolerance, max_iterations);
+    FoldFreeFlattening found = without_lock([&] { return fold_free_flattening(surface->surface, options); });
+    const bool fold_free = found.fold_free;
+    return py::make_tuple(object_of(surface, "flatten", std::move(found.flattening)), fold_free,
+                          index_array(found.unfolded));
 }
 
 }  // namespace
@@ -156,6 +186,24 @@ void bind_charts(py::module_& m) {
         "image polygon (radians), one per vertex of boundary loop 0, summing to (n − 2)π; None: the natural boundary, "
         "which keeps lengths.\n\nRaises BadOption, BadBoundary, BadMesh, NotSolved. Source: Springborn, Schröder, "
         "Pinkall 2008; Gillespie, Springborn, Crane 2021.");
+    m.def("fold_free_flattening", &fold_free, py::arg("surface"), py::arg("boundary_angles") = py::none(),
+          py::kw_only(), py::arg("tolerance") = 1e-10, py::arg("max_iterations") = 100,
+          "flatten, and where edges that were flipped on the way leave faces flipped, the nearest map without "
+          "folds.\n\nReturns the ConformalMap, whether it is free of folds, and the faces that had come out flipped. "
+          "Raises as flatten.");
+    m.def(
+        "plane_chart", &in_plane, py::arg("surface"),
+        "The coordinates of a planar surface, moved and scaled into the unit disk.\n\nRaises BadMesh unless it lies in "
+        "the plane, one component of genus 0 with a boundary.");
+    m.def(
+        "require_disk", [](const SurfacePtr& surface) { require_disk(surface->surface); }, py::arg("surface"),
+        "Raises BadMesh unless the surface is a disk: one component, one boundary loop, genus 0.");
+    m.def(
+        "require_open_component", [](const SurfacePtr& surface) { require_open_component(surface->surface); },
+        py::arg("surface"), "Raises BadMesh unless the surface has one component and a boundary, whatever its genus.");
+    m.def(
+        "require_genus_zero", [](const SurfacePtr& surface) { require_genus_zero(surface->surface); },
+        py::arg("surface"), "Raises BadMesh unless the surface has one component, genus 0 and a boundary.");
     m.def("uniformization", &uniformized, py::arg("surface"), py::arg("outer_loop") = 0, py::arg("centre") = py::none(),
           "The conformal map to the round disk, or to the disk less round holes, normalised so that it is unique: with "
           "holes, that of loop centre goes around 0 (None: the first). Moduli and the module of a ring come along.\n\n"

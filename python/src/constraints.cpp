@@ -52,10 +52,6 @@ ConstraintsObject make(const py::object& prescribed, const py::object& target, i
     return result;
 }
 
-py::array complex_array(const std::vector<Complex>& values) {
-    return py::array_t<Complex>(static_cast<py::ssize_t>(values.size()), values.data());
-}
-
 }  // namespace
 
 void take_correspondence(Keywords& keywords, Correspondence& correspondence) {

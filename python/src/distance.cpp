@@ -36,11 +36,7 @@ py::tuple matrix(const std::vector<SurfacePtr>& surfaces, const std::vector<std:
     Interruption interruption;
     Wanted wanted;
     wanted.take(given, interruption, {});
-    std::vector<Surface> list;
-    for (const SurfacePtr& surface : surfaces) {
-        if (!surface) throw py::type_error("surfaces are Surface objects");
-        list.push_back(surface->surface);
-    }
+    const std::vector<Surface> list = surfaces_of(surfaces, names);
     std::function<bool(int, int)> tell;
     if (progress) tell = [&](int done, int all) { return interruption.call(*progress, done, all); };
     DistanceMatrix found = without_lock(

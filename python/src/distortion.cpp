@@ -1,5 +1,5 @@
+#include <beltrami/mesh/diagnosis.h>
 #include <beltrami/operators/distortion.h>
-#include <beltrami/operators/frames.h>
 
 #include "module.h"
 #include "surface.h"
@@ -69,6 +69,29 @@ void bind_distortion(py::module_& m) {
         },
         py::arg("surface"), py::arg("corners"),
         "The same for a planar image given per face corner (#corners×2), such as texture_corners: seams are allowed.");
+    m.def(
+        "distortion_to",
+        [](const Mesh& source, const Mesh& image) {
+            if (!(source.faces == image.faces) || source.vertex_count() != image.vertex_count())
+                throw Error(Cause::bad_mesh, "the two meshes have not the same faces");
+            require_sound(source);
+            return distortion_to(source, image);
+        },
+        py::arg("source"), py::arg("image"),
+        "Distortion of the map between two meshes with the same faces.\n\nRaises BadMesh.");
+    m.def(
+        "mu_statistics",
+        [](const py::object& mu, const py::object& weights) {
+            const Eigen::VectorXcd list = complex_numbers(mu, "mu");
+            const Eigen::VectorXd by = real_numbers(weights, "weights");
+            if (by.size() != list.size() || list.size() == 0 || !by.allFinite() || !(by.array() > 0).all())
+                throw Error(Cause::bad_option, "weights are not one positive number for each coefficient");
+            const MuStatistics found = mu_statistics(list, {by.begin(), by.end()});
+            return py::make_tuple(found.mean, found.standard_deviation, found.p99, found.max);
+        },
+        py::arg("mu"), py::arg("weights"),
+        "Mean, standard deviation, 99th percentile and maximum of |μ| at n samples with n positive weights.\n\nRaises "
+        "BadOption.");
     m.def(
         "beltrami_coefficient",
         [](const SurfacePtr& surface, const py::object& map) {

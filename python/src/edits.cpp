@@ -2,6 +2,7 @@
 #include <beltrami/mesh/repair.h>
 #include <beltrami/mesh/subdivide.h>
 #include <beltrami/mesh/submesh.h>
+#include <beltrami/mesh/texture_map.h>
 #include <beltrami/meshing/fill_holes.h>
 
 #include "module.h"
@@ -15,13 +16,6 @@ py::tuple unpacked(Submesh part) {
     return py::make_tuple(std::move(part.mesh), index_array(part.vertices), index_array(part.faces));
 }
 
-py::array parents_array(const std::vector<std::array<int, 4>>& parents) {
-    py::array_t<int> result({static_cast<py::ssize_t>(parents.size()), py::ssize_t{4}});
-    for (std::size_t i = 0; i < parents.size(); ++i)
-        for (int j = 0; j < 4; ++j) result.mutable_at(static_cast<py::ssize_t>(i), j) = parents[i][j];
-    return result;
-}
-
 std::vector<int> faces_of(const Mesh& mesh, const py::object& faces) {
     std::vector<int> result = whole_numbers(faces, "faces");
     for (std::size_t i = 0; i < result.size(); ++i)
@@ -29,6 +23,19 @@ std::vector<int> faces_of(const Mesh& mesh, const py::object& faces) {
             throw Error(Cause::bad_option, "faces are to ascend, and to be there: face " + std::to_string(result[i]),
                         {}, {Things::faces, {result[i]}});
     return result;
+}
+
+/// @throw Error bad_mesh unless every corner has a point, and every point belongs to one vertex
+void require_texture(const Mesh& mesh) {
+    texture_corners(mesh);
+    std::vector<int> vertex(static_cast<std::size_t>(mesh.texture->points.rows()), -1);
+    for (std::size_t c = 0; c < mesh.texture->corners.size(); ++c) {
+        int& of = vertex[static_cast<std::size_t>(mesh.texture->corners[c])];
+        if (of >= 0 && of != mesh.faces.vertices()[c])
+            throw Error(Cause::bad_mesh, "a point of the texture belongs to two vertices", {},
+                        {Things::vertices, {of, mesh.faces.vertices()[c]}});
+        of = mesh.faces.vertices()[c];
+    }
 }
 
 }  // namespace
@@ -117,6 +124,26 @@ void bind_edits(py::module_& m) {
         },
         py::arg("values"), py::arg("parents"),
         "Values at the old vertices, followed by those of new ones: the means over their parents.");
+    m.def(
+        "texture_charts",
+        [](const Mesh& mesh) {
+            require_texture(mesh);
+            return index_lists(texture_charts(mesh));
+        },
+        py::arg("mesh"),
+        "The charts that texture coordinates divide a mesh into: the faces of each, ascending.\n\nRaises BadMesh "
+        "unless "
+        "every corner has a point.");
+    m.def(
+        "cut_along_seams",
+        [](const Mesh& mesh) {
+            require_texture(mesh);
+            return cut_along_seams(mesh, *mesh.texture);
+        },
+        py::arg("mesh"),
+        "The mesh cut open along the seams of its texture: a vertex for every point, the faces in their "
+        "order.\n\nRaises "
+        "BadMesh unless every corner has a point that belongs to one vertex.");
     m.def(
         "fill_holes",
         [](const SurfacePtr& surface, int outer_loop) {

@@ -3,11 +3,7 @@
 #include <chrono>
 #include <cstdio>
 
-#include <beltrami/certificate/proved_bounds.h>
 #include <beltrami/report/record_json.h>
-#include <beltrami/teichmuller/certify.h>
-#include <beltrami/teichmuller/extremal_between.h>
-#include <beltrami/teichmuller/least_dilatation.h>
 
 #include "module.h"
 
@@ -107,44 +103,6 @@ std::string ExtremalObject::summary() const {
 
 namespace {
 
-/// A map whose largest |μ| is least.
-class LeastMaximumObject final : public PlanarMap {
-  public:
-    LeastMaximumObject(const SurfacePtr& source, LeastMaximumMap result, double power, double seconds)
-        : PlanarMap(source, result.split ? make_surface(result.split->mesh, result.split->metric) : source),
-          result_(std::move(result)),
-          power_(power),
-          seconds_(seconds) {}
-    const Eigen::VectorXcd& map() const override { return result_.map; }
-    const Distortion& distortion() const override { return result_.distortion; }
-    const Warnings& warnings() const override { return result_.warnings; }
-    std::string method() const override { return "least maximum"; }
-    Record record() const override {
-        Record record = record_of(*this, "map");
-        record.map = map_record(result_);
-        record.solve = solve_record(result_, seconds_);
-        record.least_maximum = {power_, result_.start_max, result_.distortion.max};
-        return record;
-    }
-    const LeastMaximumMap& result() const { return result_; }
-
-  private:
-    LeastMaximumMap result_;
-    double power_, seconds_;
-};
-
-struct BetweenObject {
-    ExtremalPtr plane;
-    Places places;
-    Positions positions;
-    std::vector<int> partner;
-};
-
-struct CertificationObject {
-    ExtremalPtr result;
-    Certification numbers;  // without its map
-};
-
 ExtremalPtr extremal(const SurfacePtr& surface, const py::object& what, const py::kwargs& given) {
     const ConstraintsObject object = constraints_of(what);
     Interruption interruption;
@@ -156,74 +114,6 @@ ExtremalPtr extremal(const SurfacePtr& surface, const py::object& what, const py
     return without_lock(interruption, [&] {
         ExtremalMap result = extremal_map(surface->surface, object.constraints, options);
         return std::make_shared<ExtremalObject>(surface, std::move(result), seconds() - start);
-    });
-}
-
-std::shared_ptr<PlanarMap> least_dilatation(const SurfacePtr& surface, const py::object& what,
-                                            const std::string& minimize, double power, const py::kwargs& given) {
-    const ConstraintsObject object = constraints_of(what);
-    Interruption interruption;
-    LeastDilatationOptions options;
-    options.what = Keywords::choice<Least>("minimize", py::str(minimize),
-                                           {{"dilatation", Least::dilatation}, {"maximum", Least::maximum}});
-    Keywords keywords(given);
-    take_extremal(keywords, interruption, {surface.get(), object.target.get()}, options.extremal);
-    keywords.finish();
-    options.maximum.extremal = options.extremal;
-    options.maximum.progress = options.extremal.progress;
-    options.maximum.power = power;
-    const double start = seconds();
-    return without_lock(interruption, [&]() -> std::shared_ptr<PlanarMap> {
-        LeastDilatationMap found = least_dilatation_map(surface->surface, object.constraints, options);
-        if (found.extremal)
-            return std::make_shared<ExtremalObject>(surface, std::move(*found.extremal), seconds() - start);
-        return std::make_shared<LeastMaximumObject>(surface, std::move(*found.maximum), power, seconds() - start);
-    });
-}
-
-BetweenObject between(const SurfacePtr& source, const SurfacePtr& target, const py::object& pairs,
-                      const py::kwargs& given) {
-    const Eigen::MatrixXi rows = whole_table(pairs, "pairs", 2);
-    std::vector<std::array<int, 2>> list;
-    for (Eigen::Index i = 0; i < rows.rows(); ++i) list.push_back({rows(i, 0), rows(i, 1)});
-    Interruption interruption;
-    ExtremalOptions options;
-    Correspondence wanted;
-    Keywords keywords(given);
-    take_extremal(keywords, interruption, {source.get(), target.get()}, options);
-    take_correspondence(keywords, wanted);
-    keywords.finish();
-    const double start = seconds();
-    return without_lock(interruption, [&] {
-        ExtremalMapBetween result = extremal_map_between(source->surface, target->surface, list, wanted, options);
-        BetweenObject object;
-        object.plane = std::make_shared<ExtremalObject>(source, std::move(result.plane), seconds() - start);
-        object.places.points = std::move(result.places);
-        object.positions = std::move(result.positions);
-        object.partner = std::move(result.target.correspondence.partner);
-        return object;
-    });
-}
-
-CertificationObject certified(const SurfacePtr& surface, const py::object& what, double gap, const py::kwargs& given) {
-    const ConstraintsObject object = constraints_of(what);
-    Interruption interruption;
-    ExtremalOptions options;
-    CertifyOptions limits;
-    Keywords keywords(given);
-    take_extremal(keywords, interruption, {surface.get(), object.target.get()}, options);
-    keywords.take("most_triangles", limits.most_triangles);
-    keywords.take("most_refinements", limits.most_refinements);
-    keywords.take("least_progress", limits.least_progress);
-    keywords.take("most_proof_triangles", limits.most_proof_triangles);
-    keywords.finish();
-    const double start = seconds();
-    return without_lock(interruption, [&] {
-        CertificationObject made;
-        made.numbers = certify(surface->surface, object.constraints, gap, options, limits);
-        made.result = std::make_shared<ExtremalObject>(surface, std::move(made.numbers.result), seconds() - start);
-        made.numbers.result = {};
-        return made;
     });
 }
 
@@ -312,14 +202,6 @@ void bind_extremal(py::module_& m) {
         .def_property_readonly("positions", array(&ExtremalMap::positions),
                                "#V×3 (or ×2, as the target has them) their positions");
 
-    py::class_<LeastMaximumObject, PlanarMap, std::shared_ptr<LeastMaximumObject>>(
-        m, "LeastMaximumMap", "The map of this mesh whose largest |μ| is least.")
-        .def_property_readonly("start_max", [](const LeastMaximumObject& o) { return o.result().start_max; })
-        .def_property_readonly("fold_free", [](const LeastMaximumObject& o) { return o.result().fold_free; })
-        .def_property_readonly("iterations", [](const LeastMaximumObject& o) { return o.result().iterations; })
-        .def_property_readonly("branch_points",
-                               [](const LeastMaximumObject& o) { return index_array(o.result().branch_points); });
-
     m.def("extremal_map", &extremal, py::arg("surface"), py::arg("constraints"),
           (std::string(
                "The extremal quasiconformal (Teichmüller) map under constraints, by Hamilton's iteration.\n\n"
@@ -329,66 +211,6 @@ void bind_extremal(py::module_& m) {
            "\n\nSources: Reich & Strebel 1974; Weber, Myles & Zorin 2012 and Ng, Gu & Lui 2014 solve the same problems "
            "otherwise.")
               .c_str());
-    m.def("least_dilatation_map", &least_dilatation, py::arg("surface"), py::arg("constraints"),
-          py::arg("minimize") = "dilatation", py::arg("power") = 128.0,
-          (std::string("The extremal map, or, where parts of the boundary are free or minimize=\"maximum\", the map of "
-                       "this mesh whose largest |μ| is least.\n\n") +
-           kExtremalOptions)
-              .c_str());
-
-    py::class_<BetweenObject>(m, "ExtremalMapBetween", "An extremal map onto a surface whose boundary is prescribed.")
-        .def_readonly("plane", &BetweenObject::plane, "The ExtremalMap to the target's circle domain")
-        .def_readonly("places", &BetweenObject::places, "#V Places on the target's faces")
-        .def_property_readonly(
-            "positions", [](const py::object& self) { return view(self.cast<const BetweenObject&>().positions, self); },
-            "#V×3 (or ×2, as the target has them) their positions")
-        .def_readonly("partner", &BetweenObject::partner, "Of every boundary loop of the source, that of the target")
-        .def("__repr__",
-             [](const BetweenObject& o) { return "<beltrami map onto a surface: " + o.plane->summary() + ">"; });
-    m.def("extremal_map_between", &between, py::arg("source"), py::arg("target"), py::arg("pairs"),
-          (std::string(
-               "The extremal map of a surface onto another one with prescribed boundary correspondence.\n\n"
-               "pairs: n×2 (boundary vertex of the source, of the target), at least one on every loop; arc length "
-               "between them. Also outer_loop, turns, waypoints as of Constraints.\n\n") +
-           kExtremalOptions)
-              .c_str());
-
-    py::class_<CertificationObject>(m, "Certification", "An extremal map with a bracket of K*.")
-        .def_readonly("result", &CertificationObject::result, "The ExtremalMap, with the best bounds of all meshes")
-        .def_property_readonly(
-            "K_lower", [](const CertificationObject& o) { return o.result->result().K_lower_proved; },
-            "K* ≥ this, proved up to rounding")
-        .def_property_readonly(
-            "K_upper", [](const CertificationObject& o) { return o.numbers.K_upper; },
-            "K* ≤ this, proved up to rounding; infinite where there is none")
-        .def_property_readonly(
-            "gap", [](const CertificationObject& o) { return o.numbers.gap; }, "K_upper/K_lower − 1")
-        .def_property_readonly("estimated_gap", [](const CertificationObject& o) { return o.numbers.estimated_gap; })
-        .def_property_readonly("reached", [](const CertificationObject& o) { return o.numbers.reached; })
-        .def_property_readonly("reason", [](const CertificationObject& o) { return o.numbers.reason; })
-        .def_property_readonly("refinements", [](const CertificationObject& o) { return o.numbers.refinements; })
-        .def("__repr__", [](const CertificationObject& o) {
-            return "<beltrami.Certification: K* in [" + std::to_string(o.result->result().K_lower_proved) + ", " +
-                   std::to_string(o.numbers.K_upper) + "]>";
-        });
-    m.def("certify", &certified, py::arg("surface"), py::arg("constraints"), py::arg("gap") = 0.01,
-          (std::string(
-               "The extremal map, with a proof that K_upper is at most (1 + gap) K_lower, or a reason why there is "
-               "none.\n\nFurther options: most_triangles=300000, most_refinements=6, least_progress=0.1, "
-               "most_proof_triangles=12000.\n\n") +
-           kExtremalOptions)
-              .c_str());
-    m.def(
-        "bounds_of_map",
-        [](const SurfacePtr& surface, const py::object& map) {
-            const Eigen::VectorXcd images = map_of(*surface, map);
-            return without_lock([&] { return bounds_of_map(surface->surface, images).bounds; });
-        },
-        py::arg("surface"), py::arg("map"),
-        "Lower bounds of K of every map with the boundary values of a map from anywhere, proved up to rounding, and "
-        "what "
-        "the map attains: a certificate for the maps of others.\n\nRaises BadMesh unless the surface is a disk; "
-        "BadBoundary if the boundary's image is not a simple counter-clockwise polygon.");
 }
 
 }  // namespace beltrami::python

@@ -19,6 +19,18 @@ Mesh issued(const Warnings& warnings, Mesh mesh) {
     return checked(std::move(mesh));
 }
 
+template <class Read>
+void bind_bytes(py::module_& m, const char* name, const char* about, Read read) {
+    m.def(
+        name,
+        [read](const py::bytes& bytes, const std::string& file) {
+            const auto text = static_cast<std::string>(bytes);
+            LoadedMesh loaded = without_lock([&] { return read(text, file); });
+            return issued(loaded.warnings, std::move(loaded.mesh));
+        },
+        py::arg("bytes"), py::arg("name") = "the mesh", about);
+}
+
 void write(const std::filesystem::path& path, const py::object& mesh, const py::object& map) {
     const Mesh& written =
         py::isinstance<Mesh>(mesh) ? mesh.cast<const Mesh&>() : mesh.cast<const SurfaceObject&>().surface.mesh;
@@ -46,6 +58,12 @@ void bind_files(py::module_& m) {
         "Reads .obj, .ply, .off or .stl: vertices and faces in the order of the file.\n\nWhat the file holds and the "
         "mesh "
         "does not is said by warnings.warn.\n\nRaises Unreadable, BadMesh for numbers that are not finite.");
+    bind_bytes(m, "read_obj",
+               "The Mesh of a Wavefront OBJ held in memory.\n\nname: what errors call it. Raises Unreadable, BadMesh.",
+               &read_obj);
+    bind_bytes(m, "read_ply", "The same of PLY, ascii or binary.", &read_ply);
+    bind_bytes(m, "read_off", "The same of OFF.", &read_off);
+    bind_bytes(m, "read_stl", "The same of STL, text or binary.", &read_stl);
     m.def("write_mesh", &write, py::arg("path"), py::arg("mesh"), py::arg("map") = py::none(),
           "Writes .obj, .ply (binary) or .off, at once or not at all.\n\nmesh: a Mesh or Surface. map: #V complex or "
           "#V×2, written as texture coordinates; else the mesh's own.\n\nRaises Unwritable, BadOption.");

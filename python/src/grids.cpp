@@ -1,8 +1,8 @@
 #include <beltrami/applications/conformal_carrier.h>
 #include <beltrami/applications/fitting_grid.h>
 #include <beltrami/applications/grid_on_surface.h>
-#include <beltrami/locate/corner_weights.h>
-#include <beltrami/registration/nearest_places.h>
+#include <beltrami/report/grid_record.h>
+#include <beltrami/report/record_json.h>
 
 #include "extremal_map.h"
 #include "module.h"
@@ -18,6 +18,8 @@ struct PlaneGridObject {
 
 struct GridObject {
     SurfaceGrid grid;
+    SurfacePtr surface;
+    GridLines lines;
 };
 
 GridOptions grid_options(const py::kwargs& given) {
@@ -96,6 +98,17 @@ void bind_grids(py::module_& m) {
         .def_property_readonly(
             "mean_skew", [](const GridObject& o) { return o.grid.quality.mean_skew; }, "Radians")
         .def_property_readonly("folded", [](const GridObject& o) { return index_array(o.grid.quality.folded); })
+        .def(
+            "to_json",
+            [](const GridObject& o) {
+                Record record;
+                record.command = "grid";
+                record.source = source_record(o.surface->surface);
+                record.grid = grid_record(o.grid, o.surface->surface.mesh);
+                record.grid->lines = o.lines;
+                return to_json(record);
+            },
+            "The record as JSON (docs/json.md).")
         .def("__repr__", [](const GridObject& o) {
             return "<beltrami.SurfaceGrid: " + std::to_string(o.grid.mesh.face_count()) + " faces, " +
                    std::to_string(o.grid.quality.folded.size()) + " folded>";
@@ -105,8 +118,10 @@ void bind_grids(py::module_& m) {
         [](const SurfacePtr& surface, const py::object& map, const PlaneGridObject& grid, const py::kwargs& given) {
             const GridOptions options = grid_options(given);
             const Eigen::VectorXcd images = map_of(*surface, map);
-            return without_lock(
-                [&] { return GridObject{grid_on_surface(surface->surface, images, grid.grid, options)}; });
+            return without_lock([&] {
+                return GridObject{grid_on_surface(surface->surface, images, grid.grid, options), surface,
+                                  lines_of(grid.grid)};
+            });
         },
         py::arg("surface"), py::arg("map"), py::arg("grid"),
         "Carries a grid in the plane back to a surface by the inverse of a one-to-one map (Ng, Gu & Lui 2014, figure "
@@ -125,28 +140,6 @@ void bind_grids(py::module_& m) {
         "A conformal map to a domain that the surface alone determines, to carry a grid from there: the surface that "
         "was "
         "mapped, the map (#V) and the domain.\n\nRaises BadMesh, BadBoundary, NotSolved.");
-    m.def(
-        "nearest_places",
-        [](const Mesh& mesh, const py::object& points) {
-            Positions at = python::points(points, "points");
-            if (at.cols() == 2) {
-                at.conservativeResize(at.rows(), 3);
-                at.col(2).setZero();
-            }
-            const std::vector<NearestPlace> found = without_lock([&] { return nearest_places(mesh, at); });
-            Places places;
-            std::vector<double> distances;
-            for (const NearestPlace& nearest : found) {
-                places.points.push_back(nearest.place);
-                distances.push_back(nearest.distance);
-            }
-            return py::make_tuple(std::move(places),
-                                  py::array_t<double>(static_cast<py::ssize_t>(distances.size()), distances.data()));
-        },
-        py::arg("mesh"), py::arg("points"),
-        "The Places of a mesh that are nearest to n×3 (or n×2) points, and their n distances.\n\nRaises BadMesh if "
-        "there is "
-        "no face.");
 }
 
 }  // namespace beltrami::python

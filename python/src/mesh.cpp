@@ -1,4 +1,5 @@
 #include <beltrami/mesh/diagnosis.h>
+#include <beltrami/mesh/planar.h>
 #include <beltrami/mesh/texture_map.h>
 #include <beltrami/mesh/topology.h>
 #include <beltrami/meshing/quality.h>
@@ -12,7 +13,8 @@ namespace {
 
 std::optional<TextureCoordinates> texture_from(const Mesh& mesh, const py::object& texture) {
     if (texture.is_none()) return {};
-    const auto pair = texture.cast<py::tuple>();
+    const auto pair =
+        value_of<py::tuple>(texture, "texture is a pair: points, and their indices for every face corner");
     if (pair.size() != 2) throw py::type_error("texture is a pair: points, and their indices for every face corner");
     TextureCoordinates result{points(pair[0], "texture points"), whole_numbers(pair[1], "texture corners")};
     if (result.points.cols() != 2) throw Error(Cause::bad_option, "texture points are of the plane", "give n×2");
@@ -30,6 +32,7 @@ std::optional<TextureCoordinates> texture_from(const Mesh& mesh, const py::objec
 }
 
 Mesh mesh_of(const py::object& V, const py::object& F, const py::object& texture) {
+    if (F.is_none() && py::isinstance<SurfaceObject>(V)) return V.cast<const SurfaceObject&>().surface.mesh;
     Mesh mesh;
     mesh.positions = points(V, "V", Cause::bad_mesh);
     mesh.faces = face_list(F, mesh.vertex_count());
@@ -43,8 +46,9 @@ void bind_mesh(py::module_& m) {
     py::class_<Mesh>(m, "Mesh",
                      "A polygon mesh of triangles and quads, as files and generators give it; V, F = mesh takes it "
                      "apart. What is to be mapped is a Surface(mesh).")
-        .def(py::init(&mesh_of), py::arg("V"), py::arg("F"), py::arg("texture") = py::none(),
-             "V: #V×3 or #V×2 positions. F: #F×3, or #F×4 with -1 in the fourth column of triangles, or a list of "
+        .def(py::init(&mesh_of), py::arg("V"), py::arg("F") = py::none(), py::arg("texture") = py::none(),
+             "V: #V×3 or #V×2 positions, or a Surface, without F. F: #F×3, or #F×4 with -1 in the fourth column of "
+             "triangles, or a list of "
              "lists of vertices, counted from 0.\n"
              "texture: a pair of #VT×2 points and #corners indices of these (-1: none).\n\nRaises BadMesh, BadOption.")
         .def_property_readonly(
@@ -57,7 +61,7 @@ void bind_mesh(py::module_& m) {
             "texture",
             [](const Mesh& mesh) -> py::object {
                 if (!mesh.texture) return py::none();
-                return py::make_tuple(mesh.texture->points, index_array(mesh.texture->corners));
+                return texture_tuple(*mesh.texture);
             },
             "None, or #VT×2 points and #corners indices of these, -1 where a corner has none")
         .def(
@@ -91,6 +95,38 @@ void bind_mesh(py::module_& m) {
     m.def("require_sound", &require_sound, py::arg("mesh"),
           "The findings that are only warnings.\n\nRaises BadMesh naming the first fatal one.");
     m.def("is_planar", &is_planar, py::arg("mesh"), "Whether the mesh lies in the plane z = 0.");
+    m.def("corner_positions", &corner_positions, py::arg("mesh"),
+          "#corners×3 (or ×2) position of every face corner's vertex.");
+    m.def(
+        "face_vector_area",
+        [](const Mesh& mesh, int face) {
+            if (face < 0 || face >= mesh.face_count())
+                throw Error(Cause::bad_option, "there is no face " + std::to_string(face));
+            return face_vector_area(mesh, face);
+        },
+        py::arg("mesh"), py::arg("face"),
+        "½ Σ p_i × p_{i+1} of a face, 3 numbers: its length is the area, its direction the normal.\n\nRaises "
+        "BadOption.");
+    m.def(
+        "planar_coordinates",
+        [](const Mesh& mesh) {
+            if (!is_planar(mesh)) throw Error(Cause::bad_mesh, "the mesh does not lie in the plane z = 0");
+            return planar_coordinates(mesh);
+        },
+        py::arg("mesh"),
+        "#V x + iy, seen from the side from which the faces run counter-clockwise.\n\nRaises BadMesh unless the mesh "
+        "lies in the plane z = 0.");
+    m.def(
+        "seen_from_below",
+        [](const Mesh& mesh) {
+            if (!is_planar(mesh)) throw Error(Cause::bad_mesh, "the mesh does not lie in the plane z = 0");
+            return seen_from_below(mesh);
+        },
+        py::arg("mesh"), "Whether the faces of a planar mesh run clockwise.\n\nRaises BadMesh unless it is planar.");
+    m.def(
+        "fitted_to_unit_square",
+        [](const py::object& object) { return fitted_to_unit_square(points_of(object, "points", 2)); },
+        py::arg("points"), "n×2 points moved and scaled so that their bounding box lies in [0, 1]², at 0.");
     m.def("vertex_normals", &vertex_normals, py::arg("mesh"), "#V×3 area-weighted unit normals.");
     m.def(
         "texture_map", &texture_map, py::arg("mesh"),

@@ -1,30 +1,31 @@
+#include <beltrami/registration/register_curves.h>
 #include <beltrami/registration/register_open.h>
 #include <beltrami/registration/register_spheres.h>
-#include <beltrami/registration/transfer.h>
 
 #include "extremal_map.h"
 #include "module.h"
+#include "registration.h"
 
 namespace beltrami::python {
 
 namespace {
 
+/// Vertices of a mesh, or Places on it.
+std::vector<MeshPoint> places_from(const Mesh& mesh, const py::object& places, const char* name) {
+    if (py::isinstance<Places>(places)) {
+        require_on(mesh, places.cast<const Places&>());
+        return places.cast<const Places&>().points;
+    }
+    std::vector<MeshPoint> points;
+    for (const int v : vertex_list(places, name, mesh.vertex_count())) points.push_back(place_of_vertex(mesh, v));
+    return points;
+}
+
 /// Vertices and the vertices of the target, or Places on it, to which they go.
 std::vector<SurfaceLandmark> landmarks_from(const SurfacePtr& target, const py::object& vertices,
                                             const py::object& places, const py::object& weights) {
     const std::vector<int> list = whole_numbers(vertices, "vertices");
-    std::vector<MeshPoint> at;
-    const Mesh& mesh = target->surface.mesh;
-    if (py::isinstance<Places>(places)) {
-        require_on(mesh, places.cast<const Places&>());
-        at = places.cast<const Places&>().points;
-    } else {
-        for (const int v : whole_numbers(places, "places")) {
-            if (v < 0 || v >= mesh.vertex_count())
-                throw Error(Cause::bad_option, "the target has no vertex " + std::to_string(v));
-            at.push_back(place_of_vertex(mesh, v));
-        }
-    }
+    const std::vector<MeshPoint> at = places_from(target->surface.mesh, places, "places");
     Eigen::VectorXd weight;
     if (!weights.is_none()) weight = real_numbers(weights, "weights");
     if (at.size() != list.size() || (!weights.is_none() && weight.size() != static_cast<Eigen::Index>(list.size())))
@@ -40,60 +41,51 @@ std::vector<SurfaceLandmark> landmarks_from(const SurfacePtr& target, const py::
     return landmarks;
 }
 
-struct RegistrationObject {
-    Places places;
-    Positions positions;
-    Distortion in_space;
-    std::vector<int> unresolved;
-    std::optional<double> largest_distance;
-    double k = 0, K = 1, K_lower = 1, K_max = 1;
-    std::string termination;
-    Warnings warnings;
-    std::optional<double> inverse_k;
-    std::shared_ptr<SurfaceCorrespondence> correspondence;  // null where faces are flipped
+std::vector<MeshPoint> start_from(Keywords& keywords, const SurfacePtr& source, const SurfacePtr& target) {
+    const py::object start = keywords.taken("start");
+    if (!start || start.is_none()) return {};
+    std::vector<MeshPoint> places = places_from(target->surface.mesh, start, "start");
+    if (static_cast<int>(places.size()) != source->vertex_count())
+        throw Error(Cause::bad_option, "start is not one place for each vertex of the source");
+    return places;
+}
 
-    template <class Map>
-    void take_map(const Map& map, Warnings&& found) {
-        k = map.k;
-        K = map.K;
-        K_lower = map.K_lower;
-        K_max = map.K_max;
-        termination = to_string(map.termination);
-        warnings = std::move(found);
-    }
-    void take(CarriedSurface&& carried) {
-        places.points = std::move(carried.places);
-        positions = std::move(carried.positions);
-        in_space = std::move(carried.in_space);
-        unresolved = std::move(carried.unresolved);
-        largest_distance = carried.largest_distance;
-    }
-};
-
-RegistrationObject spheres(const SurfacePtr& source, const SurfacePtr& target, const py::object& vertices,
-                           const py::object& places, const py::object& weights, const py::kwargs& given) {
+RegistrationPtr spheres(const SurfacePtr& source, const SurfacePtr& target, const py::object& vertices,
+                        const py::object& places, const py::object& weights, const py::kwargs& given) {
     const std::vector<SurfaceLandmark> landmarks = landmarks_from(target, vertices, places, weights);
     Interruption interruption;
     RegistrationOptions options;
     Keywords keywords(given);
     keywords.iteration(interruption, options.map);
     keywords.take("check_inverse", options.check_inverse);
+    options.start = start_from(keywords, source, target);
+    if (const py::object waypoints = keywords.taken("waypoints"); waypoints && !waypoints.is_none())
+        for (const py::handle item : waypoints) {
+            if (!py::isinstance<py::sequence>(item) || py::len(item) != 3)
+                throw py::type_error("waypoints are (step, vertex, vertex of the target)");
+            const auto tuple = value_of<std::array<int, 3>>(item, "waypoints are (step, vertex, vertex of the target)");
+            if (tuple[2] < 0 || tuple[2] >= target->vertex_count())
+                throw Error(Cause::bad_option, "the target has no vertex " + std::to_string(tuple[2]));
+            options.waypoints.push_back({tuple[0], tuple[1], place_of_vertex(target->surface.mesh, tuple[2])});
+        }
     keywords.finish();
+    const double begun = seconds();
     return without_lock(interruption, [&] {
         SphereRegistration found = register_spheres(source->surface, target->surface, landmarks, options);
-        RegistrationObject object;
-        object.take_map(found.map, std::move(found.warnings));
-        object.inverse_k = found.inverse_k;
-        object.correspondence = std::make_shared<SurfaceCorrespondence>(source->surface.mesh, target->surface.mesh,
-                                                                        found.target_sphere.positions, found.places);
-        object.take(std::move(found));
+        Record record = space_record(source, "register", map_record(found.map), found.warnings);
+        record.solve = solve_record(found.map, seconds() - begun);
+        record.registration = registration_record(found, "", landmarks.size());
+        auto object = std::make_shared<RegistrationObject>(source, found, found.map.distortion, std::move(record));
+        object->phi = found.map.phi;
+        object->correspondence = std::make_shared<SurfaceCorrespondence>(source->surface.mesh, target->surface.mesh,
+                                                                         found.target_sphere.positions, found.places);
         return object;
     });
 }
 
-RegistrationObject open(const SurfacePtr& source, const SurfacePtr& target, const py::object& vertices,
-                        const py::object& places, const py::object& weights, int outer_loop, int target_outer_loop,
-                        const py::kwargs& given) {
+RegistrationPtr open(const SurfacePtr& source, const SurfacePtr& target, const py::object& vertices,
+                     const py::object& places, const py::object& weights, int outer_loop, int target_outer_loop,
+                     const py::kwargs& given) {
     require_loop(*source, outer_loop);
     require_loop(*target, target_outer_loop);
     const std::vector<SurfaceLandmark> landmarks = landmarks_from(target, vertices, places, weights);
@@ -105,15 +97,75 @@ RegistrationObject open(const SurfacePtr& source, const SurfacePtr& target, cons
     keywords.take("check_inverse", options.check_inverse);
     take_extremal(keywords, interruption, {source.get(), target.get()}, options.map);
     keywords.finish();
+    const double begun = seconds();
     return without_lock(interruption, [&] {
         OpenRegistration found = register_open(source->surface, target->surface, landmarks, options);
-        RegistrationObject object;
-        object.take_map(found.map, std::move(found.warnings));
-        object.inverse_k = found.inverse_k;
+        Record record = space_record(source, "register", map_record(found.map), found.warnings);
+        record.solve = solve_record(found.map, seconds() - begun);
+        record.registration = registration_record(found, "", landmarks.size());
+        auto object = std::make_shared<RegistrationObject>(source, found, found.map.distortion, std::move(record));
+        object->phi = found.map.phi;
         if (found.map.one_to_one())
-            object.correspondence =
+            object->correspondence =
                 std::make_shared<SurfaceCorrespondence>(source->surface, target->surface, found.target, found.places);
-        object.take(std::move(found));
+        return object;
+    });
+}
+
+/// (points of the source, points of the target, closed, slides), the last two as one likes.
+std::vector<CurvePair> curves_from(const SurfacePtr& source, const SurfacePtr& target, const py::object& object) {
+    std::vector<CurvePair> curves;
+    if (object.is_none()) return curves;
+    if (!py::isinstance<py::sequence>(object)) throw py::type_error("curves are a list");
+    for (const py::handle item : object) {
+        if (!py::isinstance<py::sequence>(item) || py::len(item) < 2 || py::len(item) > 4)
+            throw py::type_error("a curve is (vertices or Places of the source, of the target, closed, slides)");
+        const py::sequence tuple = py::reinterpret_borrow<py::sequence>(item);
+        CurvePair pair;
+        pair.source.points = places_from(source->surface.mesh, tuple[0], "a curve of the source");
+        pair.target.points = places_from(target->surface.mesh, tuple[1], "a curve of the target");
+        if (py::len(item) > 2)
+            pair.source.closed = pair.target.closed = value_of<bool>(tuple[2], "closed is True or False");
+        if (py::len(item) > 3) pair.slides = value_of<bool>(tuple[3], "slides is True or False");
+        curves.push_back(std::move(pair));
+    }
+    return curves;
+}
+
+RegistrationPtr least_lp(const SurfacePtr& source, const SurfacePtr& target, const py::object& vertices,
+                         const py::object& places, const py::object& curves, double p, const py::kwargs& given) {
+    const std::vector<SurfaceLandmark> landmarks = landmarks_from(target, vertices, places, py::none());
+    const std::vector<CurvePair> pairs = curves_from(source, target, curves);
+    Interruption interruption;
+    CurveRegistrationOptions options;
+    options.p = p;
+    Keywords keywords(given);
+    keywords.take("outer_loop", options.outer_loop);
+    keywords.take("target_outer_loop", options.target_outer_loop);
+    if (!source->surface.topology.boundary_loops.empty()) {
+        require_loop(*source, options.outer_loop);
+        if (!target->surface.topology.boundary_loops.empty()) require_loop(*target, options.target_outer_loop);
+    }
+    keywords.take("tolerance", options.flow.tolerance);
+    keywords.take("max_iterations", options.flow.max_iterations);
+    options.start = start_from(keywords, source, target);
+    std::function<bool(int, double)> progress;
+    keywords.progress(interruption, progress);
+    keywords.finish();
+    if (progress)
+        options.flow.progress = [&](int iteration, const SurfaceFlowIteration& now, const TargetMap&) {
+            return progress(iteration, now.error.l2);
+        };
+    const double begun = seconds();
+    return without_lock(interruption, [&] {
+        LpRegistration found = register_least_lp(source->surface, target->surface, landmarks, pairs, options);
+        Record record = space_record(source, "register", map_record(found.carried.distortion), found.warnings);
+        record.solve = solve_record(found.map, seconds() - begun);
+        record.registration = registration_record(found, p, "", landmarks.size());
+        auto object = std::make_shared<RegistrationObject>(source, found, found.carried.distortion, std::move(record));
+        if (source->surface.topology.boundary_loops.empty())
+            object->correspondence = std::make_shared<SurfaceCorrespondence>(source->surface.mesh, target->surface.mesh,
+                                                                             found.image, found.places);
         return object;
     });
 }
@@ -125,83 +177,89 @@ const SurfaceCorrespondence& correspondence_of(const RegistrationObject& object)
     return *object.correspondence;
 }
 
-TransferWay way_from(bool to_source) {
-    return to_source ? TransferWay::to_source : TransferWay::to_target;
-}
+constexpr const char* kLandmarks = "vertices: n of the source. places: n vertices of the target, or Places on it.";
 
 }  // namespace
 
 void bind_registration(py::module_& m) {
-    py::class_<RegistrationObject>(m, "Registration", "A surface carried onto another one.")
-        .def_readonly("places", &RegistrationObject::places, "#V Places of the source's vertices on the target")
+    py::class_<RegistrationObject, CarriedObject, RegistrationPtr>(m, "Registration",
+                                                                   "A surface of genus 0 carried onto another one.")
         .def_property_readonly(
-            "positions",
-            [](const py::object& self) { return view(self.cast<const RegistrationObject&>().positions, self); },
-            "#V×3 (or ×2, as the target has them) their positions")
-        .def_readonly("in_space", &RegistrationObject::in_space, "Distortion of the straight faces between these")
+            "k", [](const RegistrationObject& o) { return o.record().map->k; },
+            "An estimate of k*; None of least Lᵖ maps")
         .def_property_readonly(
-            "unresolved", [](const RegistrationObject& o) { return index_array(o.unresolved); },
-            "Faces on which the mesh does not resolve the map")
-        .def_readonly("largest_distance", &RegistrationObject::largest_distance, "Of soft landmarks from their places")
-        .def_readonly("k", &RegistrationObject::k)
-        .def_readonly("K", &RegistrationObject::K)
-        .def_readonly("K_lower", &RegistrationObject::K_lower)
-        .def_readonly("K_max", &RegistrationObject::K_max)
-        .def_readonly("inverse_k", &RegistrationObject::inverse_k, "k of the inverse map, a check; None if not known")
-        .def_readonly("termination", &RegistrationObject::termination)
-        .def_property_readonly("warnings", [](const RegistrationObject& o) { return o.warnings; })
+            "K", [](const RegistrationObject& o) { return o.record().map->K; },
+            "An estimate of K*; None of least Lᵖ maps")
+        .def_property_readonly(
+            "K_lower", [](const RegistrationObject& o) { return o.record().map->K_lower; },
+            "An estimate of a lower bound of K*; None of least Lᵖ maps")
+        .def_property_readonly(
+            "phi", [](const py::object& self) { return view(self.cast<const RegistrationObject&>().phi, self); },
+            "#S values of the quadratic differential; empty of least Lᵖ maps")
+        .def_property_readonly(
+            "inverse_k", [](const RegistrationObject& o) { return o.record().registration->inverse_k; },
+            "k of the inverse map from the target's own mesh: how far k is from it estimates the meshes' error")
+        .def_property_readonly(
+            "correspondence", [](const RegistrationObject& o) { return o.correspondence; },
+            "The SurfaceCorrespondence, for places both ways and transfers; None where faces are flipped, and of least "
+            "Lᵖ "
+            "maps of open surfaces")
         .def(
             "transfer",
             [](const RegistrationObject& o, const py::object& values, bool to_source) {
-                const SurfaceCorrespondence& map = correspondence_of(o);
-                const Mesh& from = to_source ? map.target() : map.source();
-                const Positions rows = table(values, "values", from.vertex_count());
-                return without_lock([&] { return transferred_vertex_values(map, rows, way_from(to_source)); });
+                return transferred_values(correspondence_of(o), values, to_source, false);
             },
             py::arg("values"), py::arg("to_source") = false,
-            "Values of the vertices of one surface (#V or #V×m) at those of the other: #V×m.")
+            "Values of the vertices of one surface (#V or #V×m) at those of the other: #V×m.\n\nRaises BadOption "
+            "where faces are flipped, or unless there are #V.")
         .def(
             "transfer_faces",
             [](const RegistrationObject& o, const py::object& values, bool to_source) {
-                const SurfaceCorrespondence& map = correspondence_of(o);
-                const Mesh& from = to_source ? map.target() : map.source();
-                const Positions rows = table(values, "values", from.face_count());
-                return without_lock([&] { return transferred_face_values(map, rows, way_from(to_source)); });
+                return transferred_values(correspondence_of(o), values, to_source, true);
             },
-            py::arg("values"), py::arg("to_source") = false, "Values of the faces, as means over the other's faces.")
+            py::arg("values"), py::arg("to_source") = false,
+            "Values of the faces (#F or #F×m), as means over the other's faces: #F×m.\n\nRaises BadOption.")
         .def(
             "forward",
             [](const RegistrationObject& o, const Places& places) {
-                const SurfaceCorrespondence& map = correspondence_of(o);
-                require_on(map.source(), places);
-                return without_lock([&] { return Places{map.forward(places.points)}; });
+                return carried_places(correspondence_of(o), places, false);
             },
-            py::arg("places"), "Places of the source on the target.")
+            py::arg("places"), "Places of the source on the target.\n\nRaises BadOption where faces are flipped.")
         .def(
             "back",
             [](const RegistrationObject& o, const Places& places) {
-                const SurfaceCorrespondence& map = correspondence_of(o);
-                require_on(map.target(), places);
-                return without_lock([&] { return Places{map.back(places.points)}; });
+                return carried_places(correspondence_of(o), places, true);
             },
-            py::arg("places"), "Places of the target on the source.")
-        .def("__repr__", [](const RegistrationObject& o) {
-            return "<beltrami.Registration: K " + std::to_string(o.K) + ", " + o.termination + ">";
-        });
-    m.def("register_spheres", &spheres, py::arg("source"), py::arg("target"), py::arg("vertices"), py::arg("places"),
-          py::arg("weights") = py::none(),
-          "The extremal map between two closed surfaces of genus 0 that takes landmarks to their places.\n\nvertices: "
-          "n of the "
-          "source. places: n vertices of the target, or Places on it. weights: n, finite ones make landmarks soft.\n\n"
-          "Options: tolerance, max_iterations=40, check_inverse=True, progress=None.\n\nRaises BadMesh, BadBoundary, "
-          "BadOption, NotSolved, Cancelled.");
-    m.def("register_open", &open, py::arg("source"), py::arg("target"), py::arg("vertices"), py::arg("places"),
-          py::arg("weights") = py::none(), py::arg("outer_loop") = 0, py::arg("target_outer_loop") = 0,
+            py::arg("places"), "Places of the target on the source.\n\nRaises BadOption where faces are flipped.");
+    m.def(
+        "register_spheres", &spheres, py::arg("source"), py::arg("target"), py::arg("vertices") = py::list(),
+        py::arg("places") = py::list(), py::arg("weights") = py::none(),
+        (std::string(
+             "The extremal map between two closed surfaces of genus 0 that takes landmarks to their places.\n\n") +
+         kLandmarks +
+         " weights: n, finite ones make landmarks soft.\n\nOptions: tolerance, max_iterations=40, check_inverse=True, "
+         "start=None (#V vertices or Places), waypoints=[(step, vertex, vertex of the target), …], which choose the "
+         "homotopy class, progress=None.\n\nRaises BadMesh, BadBoundary, BadOption, NotSolved, Cancelled.")
+            .c_str());
+    m.def("register_open", &open, py::arg("source"), py::arg("target"), py::arg("vertices") = py::list(),
+          py::arg("places") = py::list(), py::arg("weights") = py::none(), py::arg("outer_loop") = 0,
+          py::arg("target_outer_loop") = 0,
           (std::string(
                "The extremal map between two surfaces of genus 0 with equally many boundary loops that takes landmarks "
                "to their places; boundaries slide along each other.\n\nvertices, places and weights as of "
                "register_spheres. check_inverse=True finds inverse_k.\n\n") +
            kExtremalOptions)
+              .c_str());
+    m.def("register_least_lp", &least_lp, py::arg("source"), py::arg("target"), py::arg("vertices") = py::list(),
+          py::arg("places") = py::list(), py::arg("curves") = py::none(), py::arg("p") = 2.0,
+          (std::string(
+               "The map between two surfaces of genus 0, both closed or with equally many boundary loops, of least "
+               "Lᵖ norm of |μ|, that takes curves to curves and landmarks to their places.\n\n") +
+           kLandmarks +
+           " curves: (points of the source, points of the target, closed=False, slides=True) each, points being "
+           "vertices or Places that geodesics join. p: from 2; the larger the more even |μ| is.\n\nOptions: "
+           "outer_loop=0, target_outer_loop=0, tolerance=1e-8, max_iterations=100, start=None (#V vertices or Places), "
+           "progress=None.\n\nRaises BadMesh, BadBoundary, BadOption, NotSolved, Cancelled. Source: Wong & Zhao 2014.")
               .c_str());
 }
 

@@ -48,6 +48,26 @@ Eigen::VectorXcd samples_of(const SurfaceObject& surface, const py::object& valu
                 "give one for each sample, or each face");
 }
 
+SurfacePtr in_space(const SurfacePtr& surface) {
+    if (surface->surface.mesh.positions.cols() == 3) return surface;
+    Mesh mesh = surface->surface.mesh;
+    mesh.positions.conservativeResize(Eigen::NoChange, 3);
+    mesh.positions.col(2).setZero();
+    return make_surface(std::move(mesh), surface->surface.metric);
+}
+
+std::vector<Surface> surfaces_of(const std::vector<SurfacePtr>& surfaces, const std::vector<std::string>& names) {
+    if (!names.empty() && names.size() != surfaces.size())
+        throw Error(Cause::bad_option, "there are " + std::to_string(names.size()) + " names for " +
+                                           std::to_string(surfaces.size()) + " surfaces");
+    std::vector<Surface> list;
+    for (const SurfacePtr& surface : surfaces) {
+        if (!surface) throw py::type_error("surfaces are Surface objects");
+        list.push_back(surface->surface);
+    }
+    return list;
+}
+
 void require_loop(const SurfaceObject& surface, int loop) {
     const auto count = static_cast<int>(surface.surface.topology.boundary_loops.size());
     if (loop < 0 || loop >= count)
@@ -138,12 +158,7 @@ void bind_surface(py::module_& m) {
             "#E×2 vertices of the edges, the smaller first")
         .def_property_readonly(
             "boundary_loops",
-            [](const SurfaceObject& object) {
-                py::list loops;
-                for (const std::vector<int>& loop : object.surface.topology.boundary_loops)
-                    loops.append(index_array(loop));
-                return loops;
-            },
+            [](const SurfaceObject& object) { return index_lists(object.surface.topology.boundary_loops); },
             "Vertices of every boundary loop, with the faces on the left; loop 0 is the outer one: in the plane the "
             "one that encloses the most, in space the longest")
         .def_property_readonly("loop_lengths",
@@ -176,6 +191,22 @@ void bind_surface(py::module_& m) {
                         [](const py::tuple& state) { return surface_from_state(state); }))
         .def("__repr__", &sentence_of);
 
+    // Functions of meshes take surfaces as well.
+    py::implicitly_convertible<SurfaceObject, Mesh>();
+
+    m.def(
+        "first_edge_directions", [](const SurfacePtr& surface) { return first_edge_directions(surface->surface); },
+        py::arg("surface"), "#S: the direction of the face's first edge in the frame of every sample, of length 1.");
+    m.def(
+        "stereographic_derivatives",
+        [](const SurfacePtr& surface) {
+            if (surface->surface.mesh.positions.cols() != 3)
+                throw Error(Cause::bad_option, "the surface does not lie on the unit sphere");
+            return stereographic_derivatives(surface->surface);
+        },
+        py::arg("surface"),
+        "#S: dz/dw of the stereographic coordinate at the middle of every sample's face, w in its frame.\n\nRaises "
+        "BadOption naming vertices that are not on the unit sphere.");
     m.def(
         "mu_along_first_edge",
         [](const SurfaceObject& surface, const py::object& mu) {
@@ -187,16 +218,20 @@ void bind_surface(py::module_& m) {
     m.def(
         "mu_at_samples",
         [](const SurfaceObject& surface, const py::object& face_mu, const std::string& frame) {
-            return mu_at_samples(surface.surface, complex_numbers(face_mu, "face_mu"),
-                                 Keywords::choice<CoefficientFrame>("frame", py::str(frame),
-                                                                    {{"samples", CoefficientFrame::samples},
-                                                                     {"first_edge", CoefficientFrame::first_edge},
-                                                                     {"plane", CoefficientFrame::plane}}));
+            return mu_at_samples(
+                surface.surface, complex_numbers(face_mu, "face_mu"),
+                Keywords::choice<CoefficientFrame>("frame", py::str(frame),
+                                                   {{"samples", CoefficientFrame::samples},
+                                                    {"first_edge", CoefficientFrame::first_edge},
+                                                    {"plane", CoefficientFrame::plane},
+                                                    {"stereographic", CoefficientFrame::stereographic}}));
         },
         py::arg("surface"), py::arg("face_mu"), py::arg("frame") = "samples",
         "Coefficients given for faces in the samples' frames.\n\nface_mu: #F. frame: \"samples\", \"first_edge\" "
-        "(the face's first edge is the real axis) or \"plane\" (that of a planar mesh). Returns #S.\n\n"
-        "Raises BadOption if there are not #F of them, or frame is \"plane\" and the surface does not lie in one.");
+        "(the face's first edge is the real axis) or \"plane\" (that of a planar mesh) or \"stereographic\" (of a mesh "
+        "on the "
+        "unit sphere). Returns #S.\n\nRaises BadOption if there are not #F of them, or the surface does not lie in the "
+        "plane, or on the sphere.");
 }
 
 }  // namespace beltrami::python

@@ -30,6 +30,10 @@ Mesh checked(Mesh mesh);
 Eigen::VectorXcd map_of(const SurfaceObject& surface, const py::object& map, const char* name = "map");
 /// #S numbers of the samples, or #F of the faces in the samples' frames.
 Eigen::VectorXcd samples_of(const SurfaceObject& surface, const py::object& values, const char* name);
+/// The surface, or, where its positions have two coordinates, the same with z = 0.
+SurfacePtr in_space(const SurfacePtr& surface);
+/// Copies of surfaces that are to be compared. @throw TypeError; Error bad_option unless names are none or one for each
+std::vector<Surface> surfaces_of(const std::vector<SurfacePtr>& surfaces, const std::vector<std::string>& names);
 /// @throw Error bad_option unless the surface has the loop
 void require_loop(const SurfaceObject& surface, int loop);
 

@@ -82,7 +82,30 @@ void bind_targets(py::module_& m) {
         py::arg("surface"),
         "The domain that a planar surface covers: curve l is the polygon of boundary loop l.\n\nRaises BadMesh, "
         "BadBoundary.");
-    m.def("curve_name", &curve_name, py::arg("curve"));
+    m.def(
+        "nearest_mark",
+        [](const TargetDomain& domain, int vertex, Complex point) {
+            const Mark mark = nearest_mark(domain, vertex, point);
+            const CurveParameter& place = on_curve(mark);
+            return py::make_tuple(vertex, place.curve, place.parameter);
+        },
+        py::arg("domain"), py::arg("vertex"), py::arg("point"),
+        "The mark (vertex, curve, arc length) of Constraints that sends a vertex to the nearest point of the nearest "
+        "curve.\n\nRaises BadBoundary if the point is not finite.");
+    m.def(
+        "distance_from",
+        [](const TargetDomain& domain, const std::tuple<int, int, double>& mark, Complex point) {
+            const auto [vertex, curve, parameter] = mark;
+            if (curve < 0 || curve >= domain.curve_count())
+                throw Error(Cause::bad_option, "there is no curve " + std::to_string(curve));
+            if (!std::isfinite(parameter)) throw Error(Cause::bad_option, "the mark's arc length is not finite");
+            return distance_from(domain, Mark(vertex, curve, parameter), point);
+        },
+        py::arg("domain"), py::arg("mark"), py::arg("point"),
+        "How far a mark (vertex, curve, arc length) lies from the point that was meant, as part of its curve's "
+        "length.\n\nRaises BadOption.");
+    m.def("curve_name", &curve_name, py::arg("curve"),
+          "What sentences call a curve of a domain by its number, 0 the outer one.");
     m.def(
         "target_mesh",
         [](const TargetDomain& domain, const py::kwargs& given) {

@@ -1,11 +1,11 @@
 #include <beltrami/forms/flat_torus.h>
-#include <beltrami/forms/harmonic_basis.h>
-#include <beltrami/forms/homology.h>
-#include <beltrami/forms/period_matrix.h>
+#include <beltrami/report/record_json.h>
 #include <beltrami/teichmuller/torus_map.h>
 
 #include "extremal_map.h"
+#include "marking.h"
 #include "module.h"
+#include "space_map.h"
 
 namespace beltrami::python {
 
@@ -17,138 +17,207 @@ struct TorusObject {
 };
 using TorusPtr = std::shared_ptr<TorusObject>;
 
-py::list loop_list(const std::vector<std::vector<int>>& loops) {
-    py::list list;
-    for (const std::vector<int>& loop : loops) list.append(index_array(loop));
-    return list;
-}
-
 TorusPtr flat(const SurfacePtr& surface) {
     return without_lock([&] {
         return std::make_shared<TorusObject>(TorusObject{surface, flat_torus(surface->surface)});
     });
 }
 
-TorusMap map_of_tori(const TorusPtr& source, const TorusPtr& target, const std::optional<Eigen::Matrix2i>& marking,
-                     const std::array<int, 2>& vertices) {
+/// An extremal map between tori.
+class TorusMapObject final : public CarriedObject {
+  public:
+    TorusMapObject(const SurfacePtr& source, TorusMap found, Record record)
+        : CarriedObject(source, "registration", found, found.distortion, std::move(record)), found_(std::move(found)) {}
+    const TorusMap& found() const { return found_; }
+
+  private:
+    TorusMap found_;
+};
+using TorusMapPtr = std::shared_ptr<TorusMapObject>;
+
+TorusMapPtr object_of(const SurfacePtr& source, TorusMap found, double begun) {
+    Record record = space_record(source, "register", map_record(found), found.warnings);
+    record.solve = solve_record(found, seconds() - begun);
+    record.registration = registration_record(found, "");
+    return std::make_shared<TorusMapObject>(source, std::move(found), std::move(record));
+}
+
+TorusMapPtr map_of_tori(const TorusPtr& source, const TorusPtr& target, const std::optional<Eigen::Matrix2i>& marking,
+                        const std::array<int, 2>& vertices) {
     TorusMapOptions options;
     options.marking = marking;
     options.vertices = vertices;
+    const double begun = seconds();
     return without_lock([&] {
-        return torus_map(source->surface->surface, source->flat, target->surface->surface, target->flat, options);
+        return object_of(
+            source->surface,
+            torus_map(source->surface->surface, source->flat, target->surface->surface, target->flat, options), begun);
     });
+}
+
+TorusMapPtr registered(const SurfacePtr& source, const SurfacePtr& target, bool search, const py::kwargs& given) {
+    Keywords keywords(given);
+    std::optional<HandleMarking> marking = take_marking(keywords, *source, *target);
+    keywords.finish();
+    if (search) marking.reset();
+    const double begun = seconds();
+    return without_lock(
+        [&] { return object_of(source, register_tori(source->surface, target->surface, marking), begun); });
+}
+
+std::array<std::vector<int>, 2> two_paths(const py::object& object, const char* name, const TorusObject& torus) {
+    std::vector<std::vector<int>> paths = vertex_lists(object, name, torus.surface->vertex_count());
+    if (paths.size() != 2) throw Error(Cause::bad_option, std::string(name) + " are not two closed paths of vertices");
+    return {std::move(paths[0]), std::move(paths[1])};
+}
+
+void require_above(Complex tau, const char* name) {
+    if (!(tau.imag() > 0) || !std::isfinite(std::abs(tau)))
+        throw Error(Cause::bad_option, std::string(name) + " does not lie above the real axis");
 }
 
 }  // namespace
 
 void bind_tori(py::module_& m) {
-    py::class_<HomologyBasis>(m, "HomologyBasis", "Loops that generate the first homology of a surface.")
-        .def_property_readonly(
-            "loops", [](const HomologyBasis& basis) { return loop_list(basis.loops); }, "Vertices of every loop")
-        .def_readonly("lengths", &HomologyBasis::lengths)
-        .def_readonly("intersections", &HomologyBasis::intersections)
-        .def_readonly("cochains", &HomologyBasis::cochains, "#E×#loops closed 1-forms dual to the loops")
-        .def("__repr__", [](const HomologyBasis& basis) {
-            return "<beltrami.HomologyBasis: " + std::to_string(basis.size()) + " loops>";
-        });
-    m.def(
-        "homology_basis", [](const SurfacePtr& surface) { return homology_basis(surface->surface); },
-        py::arg("surface"),
-        "The shortest loops through a vertex (Erickson, Whittlesey 2005).\n\nRaises BadMesh unless there is one "
-        "component.");
-    m.def(
-        "homology_class",
-        [](const SurfacePtr& surface, const HomologyBasis& basis, const py::object& path) {
-            const std::vector<int> vertices = whole_numbers(path, "path");
-            for (const int v : vertices)
-                if (v < 0 || v >= surface->vertex_count())
-                    throw Error(Cause::bad_option, "there is no vertex " + std::to_string(v));
-            if (basis.cochains.rows() != surface->surface.topology.edge_count())
-                throw Error(Cause::bad_option, "the basis is that of another surface");
-            return homology_class(surface->surface.topology, basis, vertices);
-        },
-        py::arg("surface"), py::arg("basis"), py::arg("path"),
-        "The class of a closed path of vertices in terms of the loops.\n\nRaises BadOption naming two without an "
-        "edge.");
-    m.def(
-        "harmonic_basis",
-        [](const SurfacePtr& surface) {
-            HarmonicBasis basis = without_lock([&] { return harmonic_basis(surface->surface); });
-            return py::make_tuple(std::move(basis.forms), std::move(basis.energies), std::move(basis.homology));
-        },
-        py::arg("surface"), "The harmonic 1-forms dual to a homology basis: #E×n forms, n×n energies, the basis.");
-    m.def(
-        "period_matrix",
-        [](const SurfacePtr& surface) {
-            return without_lock(
-                [&] { return period_matrix(surface->surface, harmonic_basis(surface->surface)).periods; });
-        },
-        py::arg("surface"),
-        "g×g periods of the holomorphic 1-forms of a closed surface of genus g.\n\nRaises BadMesh if it has a boundary "
-        "or "
-        "genus 0.");
     py::class_<TorusObject, TorusPtr>(m, "FlatTorus", "A closed surface of genus 1 on the plane modulo ℤ + τℤ.")
         .def_property_readonly(
             "tau", [](const TorusObject& o) { return o.flat.tau; }, "In the fundamental domain")
-        .def_property_readonly("tau_error", [](const TorusObject& o) { return o.flat.tau_error; })
+        .def_property_readonly(
+            "surface", [](const TorusObject& o) { return o.surface; }, "That was given")
+        .def_property_readonly(
+            "tau_error", [](const TorusObject& o) { return o.flat.tau_error; },
+            "The polyhedron's own τ is no farther away, in hyperbolic distance")
+        .def_property_readonly(
+            "layout", [](const TorusObject& o) { return texture_tuple(o.flat.layout); },
+            "The faces in one piece of the plane, cut along edges: n×2 points and one for each corner")
         .def_property_readonly(
             "lattice", [](const py::object& self) { return view(self.cast<const TorusObject&>().flat.lattice, self); },
             "#V×2 (α, β) of the place α + τβ")
-        .def_property_readonly("homology", [](const TorusObject& o) { return o.flat.homology; })
-        .def_property_readonly("generators", [](const TorusObject& o) { return o.flat.generators; })
-        .def_property_readonly("distortion", [](const TorusObject& o) { return o.flat.distortion; })
+        .def_property_readonly(
+            "homology", [](const TorusObject& o) { return o.flat.homology; }, "A HomologyBasis")
+        .def_property_readonly(
+            "generators", [](const TorusObject& o) { return o.flat.generators; },
+            "2×2: a and b in terms of its loops (columns)")
+        .def_property_readonly(
+            "distortion", [](const TorusObject& o) { return o.flat.distortion; }, "Of the map to the layout")
         .def(
             "places",
             [](const TorusObject& o, const py::object& points) {
-                const Positions at = python::points(points, "points");
-                if (at.cols() != 2) throw Error(Cause::bad_option, "points are n×2 (α, β)");
-                return Places{places_on_torus(o.flat, at)};
+                return Places{places_on_torus(o.flat, points_of(points, "points", 2))};
             },
             py::arg("points"), "Places on the surface of n×2 (α, β).")
+        .def(
+            "to_json",
+            [](const TorusObject& o) {
+                Record record = space_record(o.surface, "uniformize", map_record(o.flat.distortion), {});
+                record.torus = torus_record(o.flat);
+                return to_json(record);
+            },
+            "The record as JSON (docs/json.md).")
         .def("__repr__", [](const TorusObject& o) {
             return "<beltrami.FlatTorus: tau " + std::to_string(o.flat.tau.real()) + " + " +
                    std::to_string(o.flat.tau.imag()) + "i>";
         });
     m.def("flat_torus", &flat, py::arg("surface"),
           "The flat metric of a torus.\n\nRaises BadMesh unless it is one component, closed, of genus 1; NotSolved.");
-    py::class_<TorusMap>(m, "TorusMap", "The extremal map between two tori: affine between their flat metrics.")
-        .def_readonly("K", &TorusMap::K)
-        .def_readonly("k", &TorusMap::k)
-        .def_readonly("K_lower", &TorusMap::K_lower)
-        .def_readonly("K_upper", &TorusMap::K_upper)
-        .def_readonly("mu", &TorusMap::mu)
-        .def_readonly("marking", &TorusMap::marking)
+    m.def(
+        "places_on_torus",
+        [](const TorusObject& torus, const py::object& points) {
+            return Places{places_on_torus(torus.flat, points_of(points, "points", 2))};
+        },
+        py::arg("torus"), py::arg("points"), "As FlatTorus.places.");
+    m.def(
+        "flat_areas",
+        [](const TorusObject& torus) {
+            return number_array(flat_areas(torus.flat, torus.surface->surface.mesh.faces));
+        },
+        py::arg("torus"),
+        "#F areas of the faces in the flat metric, |φ| of its quadratic differential: weights by which the least L² "
+        "map is extremal.");
+    m.def(
+        "torus_class",
+        [](const TorusObject& torus, const py::object& path) {
+            return torus_class(torus.surface->surface, torus.flat,
+                               vertex_list(path, "path", torus.surface->vertex_count()));
+        },
+        py::arg("torus"), py::arg("path"),
+        "The class of a closed path of vertices in terms of the generators a and b: 2 integers.\n\nRaises BadOption "
+        "naming two vertices without an edge.");
+    m.def(
+        "marking_of_paths",
+        [](const TorusObject& from, const py::object& paths_from, const TorusObject& to, const py::object& paths_to) {
+            return marking_of_paths(from.surface->surface, from.flat, two_paths(paths_from, "paths_from", from),
+                                    to.surface->surface, to.flat, two_paths(paths_to, "paths_to", to));
+        },
+        py::arg("torus_from"), py::arg("paths_from"), py::arg("torus_to"), py::arg("paths_to"),
+        "The marking (2×2 integers) that sends two closed paths of vertices on one torus to two on another.\n\nRaises "
+        "BadOption unless the classes determine it, in integers and keeping the orientation.");
+
+    const auto field = [](auto member) { return [member](const TorusMapObject& o) { return o.found().*member; }; };
+    py::class_<TorusMapObject, CarriedObject, TorusMapPtr>(
+        m, "TorusMap", "The extremal map between two tori: affine between their flat metrics.")
+        .def_property_readonly("K", field(&TorusMap::K))
+        .def_property_readonly("k", field(&TorusMap::k))
+        .def_property_readonly("K_lower", field(&TorusMap::K_lower), "K* of the class, of the two polyhedra, is above")
+        .def_property_readonly("K_upper", field(&TorusMap::K_upper), "… and below")
+        .def_property_readonly("constant_mu", field(&TorusMap::mu), "μ in the flat coordinate of the source")
+        .def_property_readonly("marking", field(&TorusMap::marking),
+                               "2×2: where the source's generators go, in those of the target")
+        .def_property_readonly("target_tau", field(&TorusMap::target_tau),
+                               "τ of the target in the images of the source's generators")
         .def_property_readonly(
-            "map", [](const py::object& self) { return view(self.cast<const TorusMap&>().map, self); },
-            "#V in the flat coordinate of the target, lifted")
-        .def_property_readonly(
-            "positions", [](const py::object& self) { return view(self.cast<const TorusMap&>().positions, self); },
-            "#V×3 on the target")
-        .def_property_readonly("places", [](const TorusMap& map) { return Places{map.places}; })
-        .def("__repr__", [](const TorusMap& map) { return "<beltrami.TorusMap: K " + std::to_string(map.K) + ">"; });
+            "map", [](const py::object& self) { return view(self.cast<const TorusMapObject&>().found().map, self); },
+            "#V in the flat coordinate of the target, lifted");
     m.def("torus_map", &map_of_tori, py::arg("source"), py::arg("target"), py::arg("marking") = py::none(),
           py::arg("vertices") = std::array<int, 2>{-1, -1},
           "The extremal map between two FlatTorus.\n\nmarking: 2×2 integers of determinant 1, where the generators go "
-          "(None: "
-          "the nearest). vertices: one of the source and the one of the target it goes to.\n\nRaises BadOption.");
-    m.def("tau_in_basis", &tau_in_basis, py::arg("tau"), py::arg("basis"), "τ in another basis of the lattice.");
-    m.def("hyperbolic_distance", &hyperbolic_distance, py::arg("a"), py::arg("b"), "In the upper half-plane.");
+          "(None: the nearest). vertices: one of the source and the one of the target it goes to.\n\nRaises BadOption. "
+          "Source: Teichmüller's theorem for genus 1 (Grötzsch's problem on the torus).");
+    m.def("register_tori", &registered, py::arg("source"), py::arg("target"), py::arg("search") = false,
+          (std::string(
+               "The extremal map between two tori in the class that a marking tells, or, search=True, that of least "
+               "dilatation.\n\n") +
+           kMarking + "\n\nRaises BadMesh, BadOption, NotSolved.")
+              .c_str());
+    m.def(
+        "tau_in_basis",
+        [](Complex tau, const Eigen::Matrix2i& basis) {
+            require_above(tau, "tau");
+            return tau_in_basis(tau, basis);
+        },
+        py::arg("tau"), py::arg("basis"), "τ in another basis of the lattice, 2×2 integers.\n\nRaises BadOption.");
+    m.def(
+        "hyperbolic_distance",
+        [](Complex a, Complex b) {
+            require_above(a, "a");
+            require_above(b, "b");
+            return hyperbolic_distance(a, b);
+        },
+        py::arg("a"), py::arg("b"), "In the upper half-plane, of curvature -1.\n\nRaises BadOption.");
+    m.def(
+        "nearest_marking",
+        [](Complex from, Complex to) {
+            for (const Complex tau : {from, to}) {
+                require_above(tau, "tau");
+                if (!(std::abs(tau) < 1e6 && tau.imag() > 1e-6))
+                    throw Error(Cause::bad_option, "tau is too near the boundary of the upper half-plane",
+                                "reduce it first, reducing_basis");
+            }
+            return nearest_marking(from, to);
+        },
+        py::arg("from_tau"), py::arg("to_tau"),
+        "The marking (2×2 integers) for which the tori of two τ are nearest.\n\nRaises BadOption.");
     m.def(
         "reducing_basis",
         [](Complex tau) {
-            if (!(tau.imag() > 0) || !std::isfinite(std::abs(tau)))
-                throw Error(Cause::bad_option, "tau does not lie above the real axis");
+            require_above(tau, "tau");
             return reducing_basis(tau);
         },
         py::arg("tau"), "The basis in which τ lies in the fundamental domain of the modular group.");
     m.def(
         "torus_distances",
         [](const std::vector<SurfacePtr>& surfaces, const std::vector<std::string>& names) {
-            std::vector<Surface> list;
-            for (const SurfacePtr& surface : surfaces) {
-                if (!surface) throw py::type_error("surfaces are Surface objects");
-                list.push_back(surface->surface);
-            }
+            const std::vector<Surface> list = surfaces_of(surfaces, names);
             TorusDistances found = without_lock([&] { return torus_distances(list, names); });
             return py::make_tuple(std::move(found.matrix.distance), std::move(found.matrix.lower),
                                   std::move(found.matrix.upper), std::move(found.tau));

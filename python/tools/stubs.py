@@ -15,7 +15,7 @@ from beltrami import _core
 HEADER = '''"""Types of the library in C++; written by python/tools/stubs.py."""
 
 import os
-from typing import Any, Dict, Iterator, List, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, Iterator, List, Optional, Sequence, Tuple, Union
 
 from numpy.typing import NDArray
 
@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 def types(text: str) -> str:
     """A signature of pybind11 as one of Python."""
     text = text.replace("beltrami._core.", "")
+    text = re.sub(r"beltrami::(?:python::)?(?:\(anonymous namespace\)::)?(\w+?)(?:Object)?\b", r"\1", text)  # bound later
     text = re.sub(r"numpy\.ndarray\[[^\[\]]*(\[[^\]]*\])?[^\[\]]*\]", "numpy.ndarray", text)
     text = text.replace("numpy.ndarray", "NDArray[Any]")
     text = re.sub(r"scipy\.sparse\.\w+\[[^\]]*\]", "Any", text)
@@ -36,8 +37,10 @@ def types(text: str) -> str:
     text = re.sub(r"(?<![\w.])list(?![\w(])", "List[Any]", text)
     text = re.sub(r"(?<![\w.])dict(?![\w(])", "Dict[Any, Any]", text)
     text = re.sub(r"\b(int|float)\[\d+\]", r"\1", text)  # of std::array
+    text = re.sub(r"(?<![\w.])(function|Callable)(?![\w\[(:])", "Callable[..., Any]", text)
     taken, arrow, given = text.rpartition("->")
-    text = taken.replace("List[", "Sequence[") + arrow + given
+    taken = re.sub(r"\b(?!self\b|arg0\b)(\w+): Mesh\b", r"\1: Union[Mesh, Surface]", taken.replace("List[", "Sequence["))  # surfaces become meshes
+    text = taken + arrow + given
     text = re.sub(r"\bIterator(?!\[)", "Iterator[Any]", text)
     text = text.replace("iterator", "Iterator[Any]")
     text = text.replace("**kwargs)", "**kwargs: Any)")
@@ -56,7 +59,7 @@ def signature(function: Any, name: str) -> str:
 def method(name: str, function: Any) -> str:
     if inspect.isfunction(function):  # written in Python, in beltrami/show.py
         text = str(inspect.signature(function)).replace("'", "").replace("_core.", "")
-        text = re.sub(r"^\(\w+: PlanarMap", "(self", text).replace("PathLike", "Union[str, os.PathLike[str]]")
+        text = re.sub(r"^\(\w+: (PlanarMap|Any)", "(self", text).replace("PathLike", "Union[str, os.PathLike[str]]")
         return f"    def {name}{text}: ..."
     text = re.sub(r"^\(self: [\w.]+", "(self", signature(function, name))
     text = re.sub(r"^\(arg0: [\w.]+", "(self", text)

@@ -131,6 +131,74 @@ def calls(surface: bt.Surface, boundary: bt.BoundaryCondition, mesh: bt.Mesh, re
         lambda a, b: bt.Constraints(boundary, turns=a, loops=b),
         lambda a, b: bt.write_mesh("/dev/null/never.obj", mesh, a),
         lambda a, b: constraints.pin(a, b),
+        *calls_in_space(surface, boundary, mesh),
+    ]
+
+
+def calls_in_space(surface: bt.Surface, boundary: bt.BoundaryCondition, mesh: bt.Mesh) -> List[Callable[..., Any]]:
+    linear = bt.BeltramiSolver(surface, boundary)
+    linear.factorize(np.zeros(surface.face_count))
+    problem = bt.LeastSquaresMap(surface, surface.boundary_loops[0], mesh.positions[surface.boundary_loops[0]])
+    deform = bt.DeformSolver(surface, [0, 40, 80])
+    ball = bt.Surface(bt.icosahedral_sphere(1))
+    torus = bt.flat_torus(bt.Surface(bt.torus(2, 1, 8, 6)))
+    square = bt.TargetDomain(bt.TargetCurve.polygon([0, 1, 1 + 1j, 1j]))
+    elements = bt.corner_elements(surface)
+    locator = bt.PlanarLocator(mesh)
+    return [
+        lambda a, b: bt.surface_flow(surface, bt.PlaneTarget(), a, start=b, max_iterations=2),
+        lambda a, b: bt.surface_flow(surface, surface, a, bt.TargetConstraints(b), max_iterations=2),
+        lambda a, b: bt.least_lp_map(surface, bt.PlaneTarget(), 2, a, start=b, max_iterations=2),
+        lambda a, b: bt.target_map(ball, bt.SphereTarget(), bt.TargetConstraints(a), b),
+        lambda a, b: bt.target_map(surface, square, bt.TargetConstraints().slide(a, bt.LevelCircle(1, 0)), b),
+        lambda a, b: bt.nearest_points(ball, a),
+        lambda a, b: bt.PolylineCurve(a, True).point(b),
+        lambda a, b: bt.PolylineCurve(a, False).nearest(b),
+        lambda a, b: bt.ring_module(surface, a),
+        lambda a, b: bt.remesh(surface, a, sizing=b, fast=True),
+        lambda a, b: bt.shapes_from_angles(mesh, a),
+        lambda a, b: bt.feature_curves(surface, 0.3, a),
+        lambda a, b: bt.carried_values(mesh, a, bt.Places(b, a, b)),
+        lambda a, b: bt.LeastSquaresMap(surface, a, b).solve(),
+        lambda a, b: bt.LeastSquaresMap(surface, [0, 1], [[0, 0], [1, 1]], reference=a),
+        lambda a, b: problem.solve(a),
+        lambda a, b: problem.energy(a, b),
+        lambda a, b: bt.smoothed_over_edges(elements, surface, a),
+        lambda a, b: bt.DeformSolver(surface, a).solve(b),
+        lambda a, b: deform.solve(a),
+        lambda a, b: bt.BeltramiSolver(surface, a).factorize(b),
+        lambda a, b: linear.solve(a, b),
+        lambda a, b: linear.solve_offsets(a),
+        lambda a, b: linear.solve_poisson(a),
+        lambda a, b: linear.solve_near(a, b, b),
+        lambda a, b: bt.even_dilatation(surface, boundary, a, 0.1, b, steps=1),
+        lambda a, b: bt.proved_bounds(surface, boundary, a),
+        lambda a, b: bt.verified_bracket(surface, boundary, a, most_rounds=1),
+        lambda a, b: bt.quadrilateral_bound(surface, a, b),
+        lambda a, b: bt.differential_of(surface, a, b).at_samples(),
+        lambda a, b: bt.averaged_estimate(surface, a, b),
+        lambda a, b: bt.sphere_map(bt.Surface(a, b)),
+        lambda a, b: bt.extremal_sphere_map(ball, ball.positions, a, b),
+        lambda a, b: bt.register_spheres(ball, ball, a, b, max_iterations=2),
+        lambda a, b: bt.register_open(surface, surface, a, b, max_iterations=2),
+        lambda a, b: bt.register_least_lp(surface, surface, curves=[(a, b)], max_iterations=2),
+        lambda a, b: bt.SurfaceCorrespondence(ball, ball, a, bt.Places(b, b, b)),
+        lambda a, b: bt.homology_class(ball, torus.homology, a),
+        lambda a, b: bt.torus_class(torus, a),
+        lambda a, b: bt.marking_of_paths(torus, a, torus, b),
+        lambda a, b: bt.places_on_torus(torus, a),
+        lambda a, b: bt.symplectic_basis(a),
+        lambda a, b: bt.wedge_products(ball, a),
+        lambda a, b: locator.locate(a),
+        lambda a, b: locator.nearest(a),
+        lambda a, b: bt.mesh_with_curves(mesh, [(a, True)]),
+        lambda a, b: bt.boundary_correspondence(surface, surface, a),
+        lambda a, b: bt.reach_corners(surface, square, [(0, 0, a)], b),
+        lambda a, b: bt.best_move(a, b),
+        lambda a, b: bt.centre_in_disk(a, b),
+        lambda a, b: bt.mu_statistics(a, b),
+        lambda a, b: bt.fitted_to_unit_square(a),
+        lambda a, b: bt.cut_along_seams(bt.Mesh(mesh.positions, mesh.faces, texture=(a, b))),
     ]
 
 
