@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <string>
 #include <utility>
 
 #include <beltrami/base/error.h>
+#include <beltrami/base/parallel.h>
+#include <beltrami/flow/averaged_patches.h>
 #include <beltrami/flow/coefficient_error_sum.h>
 #include <beltrami/solve/image_frame.h>
 #include <beltrami/solve/quasiconformal_map.h>
@@ -22,6 +26,7 @@ constexpr double kLongestMotion = 0.2;  // of the image's diameter
 constexpr double kWhole = 0.4;          // step length from which a small decrease means that the energy has settled
 constexpr double kLongStep = 0.2, kMuchLess = 0.9;  // of perturbations that are gone on with, and of the error
 constexpr double kHeldUp = 1e-3;                    // step length below which residual steps have come to an end
+constexpr int kIdleSteps = 8;                       // that together lower the energy by less than one has to
 /// A step below this part of the image's size that lowers nothing is rounding: the energy is flat there.
 constexpr double kRounding = 1e-6;
 
@@ -91,7 +96,7 @@ class Flow {
                                                    std::to_string(flips_) + " samples are flipped");
             if (scheme != of_energy) energy = energy_of(of_energy = scheme);
             const TargetStep::Taken taken = take(*energy, scheme, mu);
-            if (!ended(*energy, taken) || scheme_.turns(flips_)) continue;
+            if (!ended(*energy, taken) || opens_patches() || scheme_.turns(flips_)) continue;
             if (taken.length > 0 || taken.wanted < kRounding * size_) result_.termination = Termination::converged;
             break;
         }
@@ -111,6 +116,10 @@ class Flow {
         ++result_.iterations;
         if (motion_.unheld() && taken.length > 0) centre();
         flips_ = flipped_samples(source_.operators, result_.map);
+        if (energy.descends())
+            fallen_.push_back(taken.fallen);
+        else
+            fallen_.clear();
         SurfaceFlowIteration now{
             scheme, taken.energy, taken.length, taken.movement / size_, coefficient_error(source_, result_.map, mu),
             0,      flips_};
@@ -124,11 +133,26 @@ class Flow {
         return taken;
     }
 
+    /// Where steps leave flips that patches of means do not: goes on with fewer.
+    bool opens_patches() {
+        if (options_.scheme != FlowScheme::automatic || flips_ == 0) return false;
+        std::vector<char> held;
+        for (const signed char unknowns : motion_.unknowns()) held.push_back(unknowns < 2);
+        const int left = average_flipped_patches(source_, motion_.target(), held, result_.map);
+        return std::exchange(flips_, left) > left;
+    }
+
     bool ended(const TargetEnergy& energy, const TargetStep::Taken& taken) const {
         if (taken.length == 0 || (flips_ > 0 && energy.descends() && taken.length < kHeldUp)) return true;
-        if (taken.movement < options_.tolerance * size_) return true;
+        if (taken.movement < options_.tolerance * size_ || idle()) return true;
         if (taken.length < kWhole || taken.damped) return false;
         return (energy.descends() && taken.fallen < options_.least_decrease) || error_settled();
+    }
+
+    /// Whether the last steps, which were cut short or damped, have together done no more than one has to.
+    bool idle() const {
+        return flips_ == 0 && std::ssize(fallen_) >= kIdleSteps &&
+               std::accumulate(fallen_.end() - kIdleSteps, fallen_.end(), 0.0) < options_.least_decrease;
     }
 
     /// Steps go on along conformal maps where nothing is held, and lower energies that those change: then it is the
@@ -174,13 +198,14 @@ class Flow {
     TargetStep step_;
     Eigen::VectorXd vertex_weights_;
     SurfaceFlowMap result_;
+    std::vector<double> fallen_;  ///< by which parts the steps since the last perturbation lowered their energies
     int flips_ = 0;
     double size_ = 1;
 };
 
 /// The square of the direction that a vertex' frame has in that of a sample beside it.
-Complex turn_to(const ImageFrame& frame, const Eigen::Vector3d& normal) {
-    const Complex direction = frame.along(TangentFrame(normal).first);
+Complex turn_to(const ImageFrame& frame, const TangentFrame& vertex) {
+    const Complex direction = frame.along(vertex.first);
     return direction * direction / std::max(std::norm(direction), 1e-300);
 }
 
@@ -210,29 +235,40 @@ void SurfaceFlowOptions::validate() const {
 CoefficientError coefficient_error(const Surface& source, const TargetMap& map, const Eigen::VectorXcd& mu) {
     const Operators& operators = source.operators;
     const Positions points = positions_of(map.points), normals = normals_of(map.points);
+    std::vector<TangentFrame> at_vertices;
+    at_vertices.reserve(map.points.size());
+    for (const Target::Point& point : map.points) at_vertices.emplace_back(point.normal);
+    std::vector<ImageFrame> frames(static_cast<std::size_t>(operators.sample_count()));
+    parallel_for(0, operators.sample_count(), [&](int first, int last) {
+        for (int s = first; s < last; ++s) frames[s] = image_frame(operators, s, points, normals);
+    });
     CoefficientErrorSum sums;
     // (∂̄f − μ∂f)/conj(∂f) in the frames of the vertices, in which it can be averaged, by |∂f|² and area.
     Eigen::VectorXcd mean = Eigen::VectorXcd::Zero(operators.vertex_count);
     Eigen::VectorXd around = Eigen::VectorXd::Zero(operators.vertex_count);
     for (int s = 0; s < operators.sample_count(); ++s) {
-        const ImageFrame frame = image_frame(operators, s, points, normals);
+        const ImageFrame& frame = frames[s];
         const Complex left = frame.q - mu[s] * frame.p;
         const double w = operators.weights[s];
         sums.add(w, frame.p, frame.q, mu[s]);
         for (const int v : operators.stencil(s)) {
-            mean[v] += w * left * frame.p * std::conj(turn_to(frame, map.points[v].normal));
+            mean[v] += w * left * frame.p * std::conj(turn_to(frame, at_vertices[v]));
             around[v] += w * std::norm(frame.p);
         }
     }
-    double smooth = 0;
-    for (int s = 0; s < operators.sample_count(); ++s) {
-        const ImageFrame frame = image_frame(operators, s, points, normals);
-        const auto stencil = operators.stencil(s);
-        Complex sum = 0;
-        for (const int v : stencil)
-            if (around[v] > 0) sum += mean[v] / around[v] * turn_to(frame, map.points[v].normal);
-        smooth += operators.weights[s] * std::norm(frame.p) * std::norm(sum / static_cast<double>(stencil.size()));
-    }
+    for (Eigen::Index v = 0; v < mean.size(); ++v)
+        if (around[v] > 0) mean[v] /= around[v];
+    const double smooth = parallel_sum(operators.sample_count(), 0.0, [&](int first, int last) {
+        double part = 0;
+        for (int s = first; s < last; ++s) {
+            const auto stencil = operators.stencil(s);
+            Complex sum = 0;
+            for (const int v : stencil) sum += mean[v] * turn_to(frames[s], at_vertices[v]);
+            part +=
+                operators.weights[s] * std::norm(frames[s].p) * std::norm(sum / static_cast<double>(stencil.size()));
+        }
+        return part;
+    });
     return sums.error(smooth);
 }
 

@@ -11,8 +11,8 @@ namespace beltrami BELTRAMI_PUBLIC {
 
 /// Steps of a flow along a target.
 enum class FlowScheme {
-    automatic,     ///< residual while faces are flipped, and where that is held up perturbation; perturbation while it
-                   ///< gains much towards a coefficient; then barrier
+    automatic,     ///< residual while faces are flipped, where that is held up patches of means, and perturbation;
+                   ///< perturbation while it gains much towards a coefficient; then barrier
     residual,      ///< Gauss-Newton steps for Σ W |∂̄f − σ∂f|²
     perturbation,  ///< those of Wong & Zhao: the motion that changes μ towards σ to first order
     barrier,       ///< Gauss-Newton steps for an energy that is infinite where a face is flipped
@@ -33,8 +33,8 @@ struct SurfaceFlowIteration {
 struct SurfaceFlowOptions {
     /// Stop when a step moves no vertex by more, as part of the diameter of the image.
     double tolerance = 1e-8;
-    /// Stop when a step that is not cut short lowers its energy by less than this part, or changes the squared error by
-    /// less where no vertex is held: such maps may drift for ever along conformal maps of the target. 0: never.
+    /// Stop when a step that is not cut short, or eight of any length together, lower their energy by less than this
+    /// part, or the squared error changes by less where no vertex is held: such maps may drift for ever. 0: never.
     double least_decrease = 1e-4;
     int max_iterations = 100;  ///< linear solves
     FlowScheme scheme = FlowScheme::automatic;

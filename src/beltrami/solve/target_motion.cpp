@@ -19,21 +19,11 @@ std::vector<signed char> unknowns_of(const Surface& source, const TargetConstrai
     return unknowns;
 }
 
-/// The graph of the mesh, all its edges alike, with the vertices held that are not free.
-std::unique_ptr<GraphLaplacian> graph_of(const Surface& source, const std::vector<signed char>& unknowns) {
-    std::vector<std::array<int, 2>> edges;
-    for (int f = 0; f < source.mesh.face_count(); ++f) {
-        const auto face = source.mesh.faces[f];
-        for (std::size_t i = 0; i < face.size(); ++i) edges.push_back({face[i], face[(i + 1) % face.size()]});
-    }
+std::vector<char> not_free(const std::vector<signed char>& unknowns) {
     std::vector<char> held;
     held.reserve(unknowns.size());
     for (const signed char count : unknowns) held.push_back(count < 2);
-    const std::vector<double> weights(edges.size(), 1.0);
-    auto graph = std::make_unique<GraphLaplacian>(std::move(edges), held);
-    graph->set(weights);
-    graph->factorize();
-    return graph;
+    return held;
 }
 
 }  // namespace
@@ -45,7 +35,7 @@ TargetMotion::TargetMotion(const Surface& source, const Target& target, const Ta
       slide_(unknowns_.size(), -1) {
     for (std::size_t i = 0; i < constraints.sliding.size(); ++i)
         slide_[constraints.sliding[i].vertex] = static_cast<int>(i);
-    if (!constraints.sliding.empty()) inward_ = graph_of(source, unknowns_);
+    if (!constraints.sliding.empty()) inward_ = graph_of(source, not_free(unknowns_));
 }
 
 std::vector<int> TargetMotion::indices_of_moving() const {
@@ -65,20 +55,6 @@ TargetMotion::Directions TargetMotion::directions(int vertex, const TargetMap& m
     return {frame.first, frame.second};
 }
 
-/// #V×3: given at held and sliding vertices, harmonic in between.
-Positions TargetMotion::bent_in(const Positions& bends) const {
-    Eigen::VectorXcd plane(bends.rows()), height(bends.rows());
-    for (Eigen::Index v = 0; v < bends.rows(); ++v) {
-        plane[v] = {bends(v, 0), bends(v, 1)};
-        height[v] = bends(v, 2);
-    }
-    plane = inward_->extend(std::move(plane));
-    height = inward_->extend(std::move(height));
-    Positions result(bends.rows(), 3);
-    result << plane.real(), plane.imag(), height.real();
-    return result;
-}
-
 TargetMap TargetMotion::moved(const TargetMap& map, const Positions& motion, double length) const {
     TargetMap result = map;
     Positions bends = Positions::Zero(inward_ ? motion.rows() : 0, 3);
@@ -91,7 +67,7 @@ TargetMap TargetMotion::moved(const TargetMap& map, const Positions& motion, dou
         result.points[v] = target_.retract(curve.point(result.parameters[i]), map.points[v]);
         bends.row(v) = result.points[v].position - map.points[v].position - along;
     }
-    if (inward_) bends = bent_in(bends);
+    if (inward_) bends = extended(*inward_, bends);
     parallel_for(
         0, static_cast<int>(motion.rows()),
         [&](int first, int last) {
@@ -103,6 +79,32 @@ TargetMap TargetMotion::moved(const TargetMap& map, const Positions& motion, dou
             }
         },
         kGrain);
+    return result;
+}
+
+std::unique_ptr<GraphLaplacian> graph_of(const Surface& source, const std::vector<char>& held) {
+    std::vector<std::array<int, 2>> edges;
+    for (int f = 0; f < source.mesh.face_count(); ++f) {
+        const auto face = source.mesh.faces[f];
+        for (std::size_t i = 0; i < face.size(); ++i) edges.push_back({face[i], face[(i + 1) % face.size()]});
+    }
+    const std::vector<double> weights(edges.size(), 1.0);
+    auto graph = std::make_unique<GraphLaplacian>(std::move(edges), held);
+    graph->set(weights);
+    graph->factorize();
+    return graph;
+}
+
+Positions extended(const GraphLaplacian& graph, const Positions& values) {
+    Eigen::VectorXcd plane(values.rows()), height(values.rows());
+    for (Eigen::Index v = 0; v < values.rows(); ++v) {
+        plane[v] = {values(v, 0), values(v, 1)};
+        height[v] = values(v, 2);
+    }
+    plane = graph.extend(std::move(plane));
+    height = graph.extend(std::move(height));
+    Positions result(values.rows(), 3);
+    result << plane.real(), plane.imag(), height.real();
     return result;
 }
 

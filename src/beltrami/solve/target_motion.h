@@ -37,14 +37,18 @@ class TargetMotion {
     bool unheld() const { return constraints_.empty(); }
 
   private:
-    Positions bent_in(const Positions& bends) const;
-
     const Target& target_;
     const TargetConstraints& constraints_;
     std::vector<signed char> unknowns_;
     std::vector<int> slide_;                  ///< #V of constraints_.sliding, −1 elsewhere
     std::unique_ptr<GraphLaplacian> inward_;  ///< null where nothing slides
 };
+
+/// The graph of a mesh, all its edges alike, with vertices held, factorised.
+/// @param held #V flags
+std::unique_ptr<GraphLaplacian> graph_of(const Surface& source, const std::vector<char>& held);
+/// #V×3: given where vertices of the graph are held, harmonic in between.
+Positions extended(const GraphLaplacian& graph, const Positions& values);
 
 /// #V×3: the motion that two unknowns a moving vertex are.
 /// @param indices TargetMotion::indices_of_moving()
