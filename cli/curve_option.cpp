@@ -1,8 +1,10 @@
 #include "curve_option.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -15,6 +17,9 @@
 namespace beltrami::cli {
 
 namespace {
+
+constexpr double kFar = 0.01, kLeaves = 0.1;  // of the target's size: hardly meant to be on it, and certainly not
+constexpr double kSamePoint = 1e-9;           // of the next point's distance
 
 /// A line of words.
 struct Line {
@@ -48,11 +53,25 @@ bool same_place(const MeshPoint& a, const MeshPoint& b) {
     return a.face == b.face && a.vertices == b.vertices && a.barycentric == b.barycentric;
 }
 
-/// A last point that is the first closes the curve.
-void close_if_repeated(CurveThrough& curve) {
-    if (curve.points.size() < 3 || !same_place(curve.points.front(), curve.points.back())) return;
-    curve.points.pop_back();
-    curve.closed = true;
+/// A last point that is the first, on both sides, closes the curve.
+void close_if_repeated(CurveOnto& curve) {
+    std::vector<MeshPoint>& here = curve.source.points;
+    Target::Points& there = curve.target;
+    const bool closed = here.size() > 2 && same_place(here.front(), here.back()),
+               closed_there = there.size() > 2 && (there.front().position - there.back().position).norm() <
+                                                      kSamePoint * (there.front().position - there[1].position).norm();
+    if (closed != closed_there)
+        throw Error(Cause::bad_boundary,
+                    closed ? "a curve is closed and its partner is not" : "a curve is open and its partner is closed",
+                    "give the first point again at the end of both, or of neither");
+    if (!closed) return;
+    here.pop_back();
+    there.pop_back();
+    curve.source.closed = true;
+}
+
+double diagonal_of(const Positions& points) {
+    return (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
 }
 
 }  // namespace
@@ -66,16 +85,15 @@ void CurveOption::add_to(CLI::App& app) {
         ->type_name("FILE");
 }
 
-std::vector<CurvePair> CurveOption::curves(const MeshInput& source, const MeshInput& target, Warnings& warnings) const {
-    std::vector<CurvePair> result;
-    if (path_.empty()) return result;
+std::vector<CurveOnto> CurveOption::read(const MeshInput& source, const PlaceOf& place_of, Warnings& warnings) const {
+    std::vector<CurveOnto> result;
     bool onto = true;
     std::vector<int> far;
     for (Line& line : read_lines(path_)) {
         if (line.words[0] == "curve") {
             if (line.words.size() != 2 || (line.words[1] != "slide" && line.words[1] != "fixed"))
                 fail_at_row(path_, line.row, "a curve begins with `curve slide` or `curve fixed`");
-            if (!result.empty() && result.back().target.points.empty())
+            if (!result.empty() && result.back().target.empty())
                 fail_at_row(path_, line.row, "the curve before has no partner after `onto`");
             result.push_back({{}, {}, line.words[1] == "slide"});
             onto = false;
@@ -94,23 +112,65 @@ std::vector<CurvePair> CurveOption::curves(const MeshInput& source, const MeshIn
             result.back().source.points.push_back(place_of_vertex(source.mesh, vertex));
             continue;
         }
-        const NearestPlace place = place_at(path_, line.row, 0, target);
-        result.back().target.points.push_back(place.place);
-        if (is_far(place, target)) far.push_back(static_cast<int>(line.row.line) - 1);
+        const auto [point, off] = place_of(line.row);
+        if (off > kLeaves)
+            fail_at_row(path_, line.row,
+                        fmt::format("the curve leaves TARGET: this point is {:.3g} % of its diagonal away", 100 * off),
+                        Cause::bad_boundary, "give points of the surface, in its coordinates");
+        if (off > kFar) far.push_back(static_cast<int>(line.row.line) - 1);
+        result.back().target.push_back(point);
     }
     if (result.empty()) throw Error(Cause::unreadable, path_ + " has no curve", "begin one with `curve slide`");
-    if (result.back().target.points.empty())
+    if (result.back().target.empty())
         throw Error(Cause::unreadable, path_ + ": the last curve has no partner", "add `onto` and its points");
-    for (CurvePair& pair : result) {
-        close_if_repeated(pair.source);
-        close_if_repeated(pair.target);
-    }
+    for (CurveOnto& curve : result) close_if_repeated(curve);
     if (!far.empty())
         warnings.push_back(
             {WarningKind::marks,
              fmt::format("{} of curves far from TARGET (more than 1 % of its diagonal), the first on line {}",
                          counted(far.size(), "point is", "points are"), far[0] + 1),
              {Things::lines, far}});
+    return result;
+}
+
+std::vector<CurveOnto> CurveOption::curves(const MeshInput& source, const MeshInput& target, Warnings& warnings) const {
+    if (path_.empty()) return {};
+    const double diagonal = diagonal_of(target.mesh.positions);
+    return read(
+        source,
+        [&](const NumberRow& row) {
+            const NearestPlace found = place_at(path_, row, 0, target);
+            Target::Point point;
+            point.place = found.place;
+            for (int i = 0; i < 3; ++i)
+                point.position += found.place.barycentric[i] * target.mesh.point(found.place.vertices[i]);
+            return std::pair(point, found.distance / (diagonal * target.unit));
+        },
+        warnings);
+}
+
+std::vector<CurveOnto> CurveOption::curves(const MeshInput& source, const Target& target, Warnings& warnings) const {
+    if (path_.empty()) return {};
+    return read(
+        source,
+        [&](const NumberRow& row) {
+            if (row.numbers.size() != 3)
+                fail_at_row(path_, row, "a point of TARGET, which has no vertices, is given as `x y z`");
+            const Eigen::Vector3d given(row.numbers[0], row.numbers[1], row.numbers[2]);
+            if (!given.allFinite()) fail_at_row(path_, row, "a coordinate is not finite");
+            const Target::Point point = target.nearest(given);
+            return std::pair(point, (point.position - given).norm() / (2 * std::max(1e-300, point.position.norm())));
+        },
+        warnings);
+}
+
+std::vector<CurvePair> CurveOption::pairs(const MeshInput& source, const MeshInput& target, Warnings& warnings) const {
+    std::vector<CurvePair> result;
+    for (const CurveOnto& curve : curves(source, target, warnings)) {
+        CurvePair pair{curve.source, {{}, curve.source.closed}, curve.slides};
+        for (const Target::Point& point : curve.target) pair.target.points.push_back(point.place);
+        result.push_back(std::move(pair));
+    }
     return result;
 }
 

@@ -46,6 +46,7 @@ class Flow final : public Command {
         output_.add_to(*app);
         coefficient_.add_to(*app, "the Beltrami coefficient of the map");
         along_.add_to(*app);
+        curves_.add_to(*app);
         boundary_.add_to(*app);
         onto_.add_to(*app);
         homotopy_.add_to(*app);
@@ -114,6 +115,8 @@ class Flow final : public Command {
         if (!names_surface(onto_.path())) add(onto_.inputs());
         add(start_map_.inputs());
         add(metric_.inputs());
+        add(curves_.inputs());
+        add(along_.inputs());
         inputs.push_back({"SOURCE", source_});
         std::vector<NamedFile> outputs = onto_.outputs();
         outputs.insert(outputs.begin(), {"-o", output_.path()});
@@ -124,6 +127,9 @@ class Flow final : public Command {
                         coefficient_.given() ? "--mu and --minimize-lp are two different maps"
                                              : "nothing says which map is meant",
                         "give one of --mu and --minimize-lp");
+        if (curves_.given() && metric_.given())
+            throw Error(Cause::bad_option, "--curves run along geodesics of SOURCE as it stands, not of another metric",
+                        "leave one of --curves and --metric out");
         if (follows_by_options()) {
             check_along();
             return;
@@ -156,7 +162,8 @@ class Flow final : public Command {
 
     /// Whether the options alone say that the map goes along a surface in space.
     bool follows_by_options() const {
-        return names_surface(onto_.path()) || along_.minimizes() || AlongTarget::says_how_it_moves(boundary_.spec());
+        return names_surface(onto_.path()) || along_.minimizes() || curves_.given() ||
+               AlongTarget::says_how_it_moves(boundary_.spec());
     }
     bool along_surface(const Surface& source) const {
         return onto_.given() && (follows_by_options() || source.topology.boundary_loops.empty());
@@ -165,8 +172,10 @@ class Flow final : public Command {
     void check_along() const {
         if (!onto_.given())
             throw Error(Cause::bad_option,
-                        along_.minimizes() ? "--minimize-lp is about maps along a surface"
-                                           : "--boundary " + boundary_.spec() + " is about maps along a surface",
+                        (along_.minimizes() ? std::string("--minimize-lp is")
+                         : curves_.given()  ? std::string("--curves are")
+                                            : "--boundary " + boundary_.spec() + " is") +
+                            " about maps along a surface",
                         "give --onto TARGET");
         if (!boundary_.spec().empty() && !AlongTarget::says_how_it_moves(boundary_.spec()))
             throw Error(Cause::bad_option,
@@ -202,8 +211,9 @@ class Flow final : public Command {
                 progress.show(iteration, now.error.l2, "rms of mu's error");
                 return true;
             };
-            return along_.run({source, input_, onto_, start_map_, boundary_.spec(), boundary_.pin_file(), mu, options},
-                              *record.surface_flow, record.warnings);
+            return along_.run(
+                {source, input_, onto_, start_map_, curves_, boundary_.spec(), boundary_.pin_file(), mu, options},
+                *record.surface_flow, record.warnings);
         }();
         record.solve.emplace();
         record.solve->iterations = flow.iterations;
@@ -345,6 +355,7 @@ class Flow final : public Command {
     OutputOptions output_;
     MuOption coefficient_;
     AlongTarget along_;
+    CurveOption curves_;
     BoundaryOptions boundary_;
     OntoTarget onto_;
     HomotopyOptions homotopy_;

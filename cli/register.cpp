@@ -118,7 +118,7 @@ class Register final : public Command {
             throw Error(Cause::bad_mesh, "one of SOURCE and TARGET is closed and the other has a boundary",
                         "fill the holes of the one, or cut the other open");
         if (least_lp()) {
-            run_least_lp(source, target, landmarks, curves_.curves(source_input, target_input, record_.warnings),
+            run_least_lp(source, target, landmarks, curves_.pairs(source_input, target_input, record_.warnings),
                          options, source_input, target_input);
             return 0;
         }
@@ -143,7 +143,10 @@ class Register final : public Command {
   private:
     bool least_lp() const {
         if (curves_.given() && method_ == "extremal")
-            throw Error(Cause::bad_option, "curves belong to least Lᵖ maps", "give --method lp");
+            throw Error(Cause::bad_option,
+                        "--curves does not go with --method extremal: an extremal map that takes curves to curves has "
+                        "a quadratic differential of the surface cut along them, which is known here of landmarks only",
+                        "give --method lp, or the curve's points as --landmarks");
         return method_ == "lp" || curves_.given();
     }
 

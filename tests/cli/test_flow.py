@@ -7,7 +7,7 @@ import unittest
 
 import numpy as np
 
-from support import Command, disk, read_obj, ring, write_obj
+from support import Command, bump, disk, read_obj, ring, write_obj
 
 
 def coefficients(points, image, faces):
@@ -391,6 +391,175 @@ class AlongSurface(Command):
         pathlib.Path(self.pins).write_text("0 1 0 0\n0 1 0 0\n")
         refused(5, *sphere, "--minimize-lp", "2", "--pin", self.pins, says="held twice")
         self.assertFalse(pathlib.Path(self.out).exists())
+
+
+class WithCurves(Command):
+    """Curves that go to curves, and starts that need no --start-map."""
+
+    def setUp(self):
+        super().setUp()
+        self.points, self.faces = octahedral_sphere(4)
+        x, y, z = self.points.T
+        self.bumpy = self.points * (1 + 0.2 * np.sin(3 * x + y) + 0.1 * z)[:, None]
+        self.source, self.out = self.path("bumpy.obj"), self.path("out.obj")
+        write_obj(self.source, self.bumpy, self.faces)
+
+    def near(self, *direction):
+        return int((self.points @ (np.array(direction) / np.linalg.norm(direction))).argmax())
+
+    def curves(self, *blocks):
+        text = ""
+        for mode, here, there in blocks:
+            text += f"curve {mode}\n" + "".join(f"{v}\n" for v in here) + "onto\n"
+            text += "".join((f"{v}" if np.ndim(v) == 0 else " ".join(map(repr, map(float, v)))) + "\n" for v in there)
+        pathlib.Path(self.path("curves.txt")).write_text(text)
+        return self.path("curves.txt")
+
+    def flow(self, *arguments):
+        return self.record("flow", *arguments, "-o", self.out)
+
+    def test_to_arcs_of_great_circles(self):
+        arcs = (("slide", [self.near(1, 0, .4), self.near(.5, .8, .5), self.near(-.3, 1, .2)],
+                 [(1, 0, .3), (.6, .8, .3), (-.3, 1, .3)]),
+                ("fixed", [self.near(1, .2, -.6), self.near(-.4, .9, -.6)], [(1, .1, -.5), (-.2, 1, -.5)]),
+                ("slide", [self.near(-1, -.4, .5), self.near(-.4, -1, -.2)], [(-1, -.3, .4), (-.3, -1, -.3)]))
+        means = []
+        for count in (1, 2, 3):
+            curves = self.curves(*arcs[:count])
+            record = self.flow(self.source, "--onto", "sphere", "--minimize-lp", "2", "--curves", curves)
+            flow = record["surface_flow"]
+            self.assertEqual(flow["start"], "cut along curves")
+            self.assertFalse(any("the start" in warning for warning in record["warnings"]))
+            self.assertEqual(flow["history"]["flips"][-1], 0)
+            self.assertEqual(record["map"]["flipped"], 0)
+            means.append(record["map"]["mu"]["mean"])
+            out = read_obj(self.out)[0]
+            for mode, here, there in arcs[:count]:
+                ends = [np.array(there[i]) / np.linalg.norm(there[i]) for i in (0, -1)]
+                for v, end in zip((here[0], here[-1]), ends):
+                    np.testing.assert_allclose(out[v], end, atol=1e-9)
+        self.assertLess(means[0], means[2])
+
+    def test_onto_a_mesh_in_space(self):
+        write_obj(self.path("target.obj"), self.bumpy[:, [1, 2, 0]] * [1, 1.2, 1], self.faces)
+        here, there = [self.near(1, .1, 0), self.near(.1, 1, .3)], [self.near(.2, .9, .4), self.near(-.9, .3, .2)]
+        for boundary in ([], ["--scheme", "barrier"]):
+            record = self.flow(self.source, "--onto", self.path("target.obj"), "--minimize-lp", "2", "--curves",
+                               self.curves(("slide", here, there)), "--places", self.path("places.txt"), *boundary)
+            self.assertEqual(record["map"]["flipped"], 0)
+        target = self.bumpy[:, [1, 2, 0]] * [1, 1.2, 1]
+        out = read_obj(self.out)[0]
+        np.testing.assert_allclose(out[here], target[there], atol=1e-6)
+        self.assertEqual(len(np.loadtxt(self.path("places.txt"))), len(self.points))
+
+    def test_a_coefficient_with_a_curve_that_its_map_has(self):
+        # The map of a coefficient, found again with one of its curves held.
+        z = (self.points[:, 0] + 1j * self.points[:, 1]) / np.maximum(1 + self.points[:, 2], 1e-300)
+        w = (z + 0.2 * np.conj(z)) / 1.2
+        images = np.column_stack([2 * w.real, 2 * w.imag, 1 - np.abs(w) ** 2]) / (1 + np.abs(w) ** 2)[:, None]
+        images[5] = [0, 0, -1]
+        write_obj(self.path("round.obj"), self.points, self.faces)
+        mu = write_rows(self.path("mu.txt"), np.full(len(self.faces), 0.2))
+        # The real axis goes to itself.
+        axis = [self.near(1, 0, 1), self.near(1, 0, .3), self.near(1, 0, -.3)]
+        record = self.flow(self.path("round.obj"), "--onto", "sphere", "--mu", mu, "--mu-frame", "stereographic",
+                           "--curves", self.curves(("fixed", axis, images[axis])))
+        self.assertEqual(record["map"]["flipped"], 0)
+        self.assertLess(record["surface_flow"]["error"]["l2"], 0.05)
+        np.testing.assert_allclose(read_obj(self.out)[0][axis], images[axis], atol=1e-9)
+
+    def test_open_surfaces_need_no_start(self):
+        points, faces = bump(8)
+        write_obj(self.path("a.obj"), points, faces)
+        other, more = bump(10)
+        other[:, 0] *= 1.5
+        write_obj(self.path("b.obj"), other, more)
+        for boundary in ("fixed", "tangential", "free"):
+            record = self.flow(self.path("a.obj"), "--onto", self.path("b.obj"), "--minimize-lp", "4", "--boundary", boundary)
+            self.assertEqual(record["map"]["flipped"], 0)
+            self.assertEqual(record["surface_flow"]["start"], "conformal")
+        points, faces = ring(48, 8, 0.5)
+        height = 0.3 * np.sin(2 * points[:, 0])
+        write_obj(self.path("ring.obj"), np.column_stack([points, height]), faces)
+        points, faces = ring(60, 12, 0.4)
+        write_obj(self.path("other.obj"), np.column_stack([points, 0.2 * points[:, 1] ** 2]), faces)
+        domain = self.path("ring.json")
+        pathlib.Path(domain).write_text(json.dumps({"outer": {"circle": [0, 0, 1]}, "holes": [{"circle": [0, 0, 0.3]}]}))
+        for onto, boundary in ((self.path("other.obj"), "tangential"), (self.path("other.obj"), "fixed"),
+                               ("plane", "free"), ("cylinder:1,1", "tangential"), (domain, "tangential")):
+            record = self.flow(self.path("ring.obj"), "--onto", onto, "--minimize-lp", "2", "--boundary", boundary)
+            self.assertEqual(record["map"]["flipped"], 0, (onto, boundary))
+        record = self.flow(self.source, "--onto", "ellipsoid:1,1.5,0.8", "--minimize-lp", "2")
+        self.assertEqual(record["map"]["flipped"], 0)
+
+    def test_curves_inside_open_surfaces(self):
+        points, faces = bump(10)
+        write_obj(self.path("a.obj"), points, faces)
+        at = lambda x, y: int(np.hypot(points[:, 0] - x, points[:, 1] - y).argmin())
+        here, there = [at(-.5, 0), at(.5, 0)], [at(-.4, .2), at(.5, -.1)]
+        for onto, to in ((self.path("a.obj"), there), ("plane", [(-.4, .2, 0), (.5, -.1, 0)])):
+            record = self.flow(self.path("a.obj"), "--onto", onto, "--minimize-lp", "2", "--curves",
+                               self.curves(("slide", here, to)), *(["--boundary", "free"] if onto == "plane" else []))
+            self.assertEqual(record["map"]["flipped"], 0)
+
+    def test_weights_by_phi(self):
+        write_obj(self.path("round.obj"), self.points, self.faces)
+        pins = self.path("pins.txt")
+        places = [(1, 0, 0), (-1, .2, 0), (0, 1, .3), (0, -1, 0), (0, 0, 1)]
+        pathlib.Path(pins).write_text("".join(f"{v} {x} {y} {z}\n" for v, (x, y, z) in enumerate(places)))
+        by = {}
+        for weight in ("area", "phi"):
+            record = self.flow(self.path("round.obj"), "--onto", "sphere", "--minimize-lp", "2", "--pin", pins, "--weight",
+                               weight)
+            by[weight] = record["map"]["mu"]
+        self.assertLess(by["phi"]["std"], 0.8 * by["area"]["std"])
+        # Of a planar domain from the file of another map.
+        points, faces = disk(10)
+        write_obj(self.path("disk.obj"), points, faces)
+        self.run_command("map", self.path("disk.obj"), "--boundary", "rectangle:2,1", "-o", self.path("map.obj"), "--phi",
+                         self.path("phi.json"))
+        vt = read_obj(self.path("map.obj"))[1]
+        write_obj(self.path("start.obj"), vt, faces)
+        for weight in ("area", self.path("phi.json")):
+            record = self.flow(self.path("disk.obj"), "--onto", "plane", "--minimize-lp", "2", "--boundary", "fixed",
+                               "--start-map", self.path("start.obj"), "--weight", weight)
+            by[weight] = record["map"]["mu"]
+        self.assertLess(by[self.path("phi.json")]["std"], 0.8 * by["area"]["std"])
+
+    def test_mistakes(self):
+        def refused(code, *arguments, says, onto="sphere"):
+            text = self.run_command("flow", self.source, "--onto", onto, "--minimize-lp", "2", *arguments, "-o", self.out,
+                                    code=code).stderr
+            self.assertIn(says, text)
+            self.assertFalse(pathlib.Path(self.out).exists())
+
+        a, b, c, d = self.near(1, 0, .1), self.near(0, 1, 0), self.near(.7, .7, .5), self.near(.7, .7, -.5)
+        ends = [(1, 0, 0), (0, 1, 0)]
+        high, low = (.63, .63, .45), (.63, .63, -.45)
+        refused(5, "--curves", self.curves(("slide", [a, b], ends), ("slide", [c, d], [low, high])),
+                says="curve 2")  # they cross
+        refused(5, "--curves", self.curves(("slide", [a, b], ends), ("slide", [c, self.near(0, 0, 1)],
+                                                                     [low, high])),
+                says="curve 2")
+        refused(5, "--curves", self.curves(("slide", [a, b], [(1, 0, 0), (-1, 0, 0)])), says="opposite")
+        refused(5, "--curves", self.curves(("slide", [a, b], [(1, 0, 0), (0, 2, 0)])), says="leaves TARGET")
+        refused(5, "--curves", self.curves(("slide", [a, b], [(1, 0, 0)])), says="partner")
+        refused(5, "--curves", self.curves(("slide", [a, b, c, a], [(1, 0, 0), (0, 1, 0), (0, 0, 1), (.5, .5, .5)])),
+                says="closed")
+        refused(5, "--curves", self.curves(("slide", [a, 10**6], ends)), says="does not exist")
+        refused(3, "--curves", self.curves(("slide", [a, b], [4, 5])), says="no vertices")
+        refused(3, "--curves", self.curves(("slide", [a, b], [(1, 0, float("nan")), (0, 1, 0)])), says="not finite")
+        for text in ("", "# nothing\n"):
+            pathlib.Path(self.path("empty.txt")).write_text(text)
+            refused(3, "--curves", self.path("empty.txt"), says="no curve")
+        refused(3, "--curves", self.path("absent.txt"), says="absent.txt")
+        good = self.curves(("slide", [a, b], ends))
+        pathlib.Path(self.path("pins.txt")).write_text(f"{a} 1 0 0\n")
+        refused(5, "--curves", good, "--pin", self.path("pins.txt"), says="held twice")
+        refused(2, "--weight", "phi", says="--weight phi")
+        refused(3, "--weight", self.path("absent.json"), says="absent.json")
+        text = self.run_command("flow", self.source, "--curves", good, "--minimize-lp", "2", "-o", self.out, code=2).stderr
+        self.assertIn("--onto TARGET", text)
 
 
 if __name__ == "__main__":
