@@ -237,15 +237,16 @@ struct DeformSolver::Parts {
             const Surface start(upright ? with_positions(begin, result.positions) : begin);
             TangentialMap map(start, elements.operators, target, held, 0);
             if (!map.folded().empty()) return;
+            double least = result.distortion.standard_deviation;
             if (!upright) {  // from the least maximum, which is nearer than the beginning
                 relax(map, 2);
-                result = measured(target, map.points(), begin);
+                least = measured(target, map.points(), begin).distortion.standard_deviation;
             }
             map.set_damping(kDamping);
             map.set_wanted(std::move(*wanted));
             map.relax(2, kDifferentialSteps, kDifferentialTolerance);
             Deformation along = measured(target, map.points(), begin);
-            if (along.distortion.standard_deviation < result.distortion.standard_deviation) result = std::move(along);
+            if (along.distortion.standard_deviation < least) result = std::move(along);
         } catch (const Error& error) {  // then it stays as it is
             if (error.cause() == Cause::cancelled) throw;
         }
