@@ -89,7 +89,7 @@ MeshWithCurves taken_apart(const MeshWithCurves& whole, const std::vector<CurveT
 }
 
 /// Ways to cut the two surfaces: several open curves joined, so that the surfaces come apart into disks, beginning with
-/// each of them in turn, where geodesics join them; and along the curves alone. The first is the one to be tried first.
+/// each of them in turn, where geodesics join them; second, or first where those do not, along the curves alone.
 std::vector<Curved> ways_to_cut(const Mesh& source, const Mesh& target, const std::vector<CurveThrough>& here,
                                 const std::vector<CurveThrough>& there) {
     std::vector<std::size_t> order;
@@ -107,8 +107,9 @@ std::vector<Curved> ways_to_cut(const Mesh& source, const Mesh& target, const st
             if (error.cause() != Cause::bad_boundary) throw;
         }
         std::rotate(order.begin(), order.begin() + 1, order.end());
+        if (turn == 0) ways.push_back({a, b, a, b});
     }
-    ways.push_back({a, b, a, b});
+    if (ways.empty()) ways.push_back({a, b, a, b});
     return ways;
 }
 
