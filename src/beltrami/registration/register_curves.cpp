@@ -209,7 +209,7 @@ void open_folds(const Surface& source, const TargetConstraints& constraints, Pos
 }
 
 /// A map of the source's own vertices, or of those with the vertices of curves, as one of all of them.
-Positions on_curves(const Wanted& wanted, const MeshWithCurves& source, Positions map) {
+Positions on_curves(const Wanted& wanted, const MeshWithCurves& source, const Positions& map) {
     const auto own = source.mesh.vertex_count() - static_cast<Eigen::Index>(source.places.size());
     return map.rows() == own ? wanted.model().with_places(map, source.places) : map;
 }
@@ -260,7 +260,7 @@ Ready made_ready(const Surface& source, const Surface& target, const TargetImage
                       : curves.empty()
                           ? start_of_landmarks(source, wanted, landmarks, options)
                           : model.at(wanted.points, map_cut_along_curves(curved.cut_source, curved.cut_target));
-    ready.unheld = on_curves(wanted, ready.source, std::move(start));
+    ready.unheld = on_curves(wanted, ready.source, start);
     Positions held = ready.unheld;
     std::vector<char> slides;
     for (const CurvePair& pair : curves) slides.push_back(pair.slides ? 1 : 0);
