@@ -19,6 +19,7 @@ namespace beltrami {
 namespace {
 
 using test::bumpy_ball;
+using test::raised_sheet;
 
 /// Through the vertices of a mesh of the sphere that are nearest to some directions, turned around the z-axis.
 CurveThrough curve_through(const Mesh& mesh, const std::vector<Eigen::Vector3d>& directions, double turn, bool closed) {
@@ -98,19 +99,8 @@ TEST(MapCutAlongCurves, PartsOfASphereWithOneCurveAreNotFolded) {
 
 TEST(RegisterLeastLp, SurfacesWithBoundaryAndTheirCurves) {
     // A sheet, with a curve inside and a landmark.
-    const auto sheet = [](double moved) {
-        Mesh mesh = rectangle(2, 2, 16, 16);
-        Positions positions(mesh.vertex_count(), 3);
-        for (int v = 0; v < mesh.vertex_count(); ++v) {
-            const double x = mesh.positions(v, 0), y = mesh.positions(v, 1);
-            const double u = x + moved * x * (2 - x) * std::sin(2 * y);
-            positions.row(v) << u, y, 0.3 * std::sin(u) * y;
-        }
-        mesh.positions = positions;
-        return mesh;
-    };
     const auto at = [](const Mesh& mesh, int i, int j) { return place_of_vertex(mesh, 17 * j + i); };
-    const Surface source(sheet(0)), target(sheet(0.15));
+    const Surface source(raised_sheet(16, 0)), target(raised_sheet(16, 0.15));
     const CurvePair pair{{{at(source.mesh, 4, 8), at(source.mesh, 8, 9), at(source.mesh, 12, 8)}, false},
                          {{at(target.mesh, 4, 8), at(target.mesh, 8, 9), at(target.mesh, 12, 8)}, false},
                          true};
