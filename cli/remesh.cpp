@@ -191,30 +191,14 @@ class Remesh final : public Command {
         }
     }
 
-    RemeshRecord remesh_record(const Surface& surface, const Positions& shapes, const Mesh& image,
-                               const RemeshedSurface& result) const {
-        const Mesh& mesh = surface.mesh;
-        RemeshRecord record;
+    RemeshRecord record_of(const Surface& surface, const Positions& shapes, const Mesh& image,
+                           const RemeshedSurface& result) const {
+        RemeshRecord record = remesh_record(surface.mesh, image, result);
         record.reference = reference_.name();
         record.method = !preserve_.empty() ? preserve_ : wanted_.fast ? "linear" : "barrier";
         if (record.method == "barrier") record.power = wanted_.power;
-        record.before = angle_statistics(mesh);
-        record.after = angle_statistics(image);
-        record.distance = surface_distance(MeshTarget(mesh), MeshTarget(image));
-        const double diagonal = (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).norm();
-        record.distance.largest /= diagonal;
-        record.distance.mean /= diagonal;
-        record.area_ratio = surface_area(image) / surface_area(mesh);
-        Eigen::VectorXd growth(mesh.face_count());
-        for (int f = 0; f < mesh.face_count(); ++f)
-            growth[f] = std::log(face_vector_area(image, f).norm() / face_vector_area(mesh, f).norm());
-        record.size_deviation = std::sqrt((growth.array() - growth.mean()).square().mean());
-        record.opposed_before = static_cast<int>(result.opposed_before.size());
-        record.opposed_after = static_cast<int>(result.unresolved.size());
         record.valence_floor = mean_valence_floor(surface);
         record.teichmueller = least_of_tori(surface, shapes);
-        record.steps = result.steps;
-        record.settled = result.settled;
         return record;
     }
 
@@ -263,7 +247,7 @@ class Remesh final : public Command {
         const Distortion before = distortion(elements.operators, in_space(mesh), vertex_normals(mesh)),
                          after = distortion(elements.operators, image.positions, vertex_normals(image));
         append(record_.warnings, result.warnings);
-        record_.remesh = remesh_record(surface, shapes, image, result);
+        record_.remesh = record_of(surface, shapes, image, result);
         record_.map = map_record(after);
         SolveRecord solve;
         solve.iterations = result.steps;

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 
 #include <beltrami/forms/flat_torus.h>
 #include <beltrami/remeshing/carried_data.h>
@@ -31,27 +30,12 @@ class RemeshedObject final : public SpaceMap {
 };
 using RemeshedPtr = std::shared_ptr<RemeshedObject>;
 
-RemeshRecord remesh_record(const Mesh& mesh, const Mesh& image, const RemeshedSurface& found,
-                           const RemeshOptions& options) {
-    RemeshRecord record;
+RemeshRecord record_of(const Mesh& mesh, const Mesh& image, const RemeshedSurface& found,
+                       const RemeshOptions& options) {
+    RemeshRecord record = remesh_record(mesh, image, found);
     record.reference = "given";
     record.method = options.fast ? "linear" : "barrier";
     record.power = options.fast ? 0 : options.power;
-    record.before = angle_statistics(mesh);
-    record.after = angle_statistics(image);
-    record.distance = surface_distance(MeshTarget(mesh), MeshTarget(image));
-    const double diagonal = (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).norm();
-    record.distance.largest /= diagonal;
-    record.distance.mean /= diagonal;
-    record.area_ratio = surface_area(image) / surface_area(mesh);
-    Eigen::VectorXd growth(mesh.face_count());
-    for (int f = 0; f < mesh.face_count(); ++f)
-        growth[f] = std::log(face_vector_area(image, f).norm() / face_vector_area(mesh, f).norm());
-    record.size_deviation = std::sqrt((growth.array() - growth.mean()).square().mean());
-    record.opposed_before = static_cast<int>(found.opposed_before.size());
-    record.opposed_after = static_cast<int>(found.unresolved.size());
-    record.steps = found.steps;
-    record.settled = found.settled;
     return record;
 }
 
@@ -88,7 +72,7 @@ RemeshedPtr remeshed(const SurfacePtr& source, const py::object& reference, cons
         record.solve =
             solve_of(found.steps, found.factorizations,
                      found.settled ? Termination::converged : Termination::iteration_limit, seconds() - begun);
-        record.remesh = remesh_record(mesh, image, found, options);
+        record.remesh = record_of(mesh, image, found, options);
         return std::make_shared<RemeshedObject>(surface, std::move(found), std::move(after), std::move(record));
     });
 }

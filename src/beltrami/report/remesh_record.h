@@ -3,9 +3,12 @@
 #include <optional>
 #include <string>
 
+#include <beltrami/base/public.h>
 #include <beltrami/remeshing/mesh_comparison.h>
 
-namespace beltrami {
+namespace beltrami BELTRAMI_PUBLIC {
+
+struct RemeshedSurface;
 
 /// A mesh whose vertices have moved along itself.
 struct RemeshRecord {
@@ -21,5 +24,9 @@ struct RemeshRecord {
     int steps = 0;
     bool settled = false;
 };
+
+/// What can be measured of a mesh and the same with its vertices moved; the reference, the method, its power and what
+/// connectivity forbids are the caller's.
+RemeshRecord remesh_record(const Mesh& mesh, const Mesh& image, const RemeshedSurface& result);
 
 }  // namespace beltrami
