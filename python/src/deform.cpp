@@ -35,6 +35,9 @@ class DeformObject {
                                {"thin_plate", Kind::thin_plate},
                                {"rigid", Kind::rigid},
                                {"uniform", Kind::uniform}});
+        using Goal = DeformGoal;
+        keywords.choose<Goal>("minimize", options.goal,
+                              {{"dilatation", Goal::dilatation}, {"maximum", Goal::largest}, {"spread", Goal::spread}});
         keywords.take("last_power", options.last_power);
         keywords.take("steps_of_power", options.steps_of_power);
         keywords.take("tolerance", options.tolerance);
@@ -52,10 +55,16 @@ class DeformObject {
             const std::lock_guard lock(mutex_);
             Deformation found = target ? solver_->solve_onto(*target, at) : solver_->solve(at);
             Record record = space_record(surface_, "deform", map_record(found.distortion), found.warnings);
-            record.solve = solve_of(found.steps, found.factorizations, Termination::converged, seconds() - begun);
-            record.deform = {to_string(found.kind), static_cast<int>(handles_.size()),
-                             found.of_surface.mean, found.of_surface.max,
-                             found.area_ratio,      found.folds};
+            record.solve =
+                solve_of(found.steps, found.factorizations,
+                         found.settled ? Termination::converged : Termination::iteration_limit, seconds() - begun);
+            record.deform = {to_string(found.kind),
+                             to_string(found.goal),
+                             static_cast<int>(handles_.size()),
+                             found.of_surface.mean,
+                             found.of_surface.max,
+                             found.area_ratio,
+                             found.folds};
             return std::make_shared<DeformationObject>(surface_, std::move(found), std::move(record));
         });
     }
@@ -83,6 +92,20 @@ void bind_deform(py::module_& m) {
             "kind", [](const DeformationObject& o) { return std::string(to_string(o.found().kind)); },
             "How that surface was found")
         .def_property_readonly(
+            "minimized", [](const DeformationObject& o) { return std::string(to_string(o.found().goal)); },
+            "What was made small of the map onto it: \"K\", \"max\" or \"spread\"; another one than wished for where "
+            "warnings say so")
+        .def_property_readonly(
+            "K_lower",
+            [](const DeformationObject& o) {
+                return o.found().extremal ? std::optional(o.found().extremal->K_lower) : std::nullopt;
+            },
+            "Where K was made small: an estimate of a lower bound, of the map in the plane by way of which it was "
+            "found")
+        .def_property_readonly(
+            "settled", [](const DeformationObject& o) { return o.found().settled; },
+            "What is made small hardly changed in the end")
+        .def_property_readonly(
             "of_surface", [](const DeformationObject& o) { return o.found().of_surface; },
             "Distortion of that surface's own vertices, with which it began")
         .def_property_readonly(
@@ -100,7 +123,9 @@ void bind_deform(py::module_& m) {
              }),
              py::arg("source"), py::arg("handles"),
              "handles: n different vertices, at least one on every component.\n\nOptions: surface=\"automatic\" | "
-             "\"thin_plate\" | \"rigid\" | \"uniform\" (the surface on which the result lies), last_power=32 (2: the "
+             "\"thin_plate\" | \"rigid\" | \"uniform\" (the surface on which the result lies), minimize=\"maximum\" | "
+             "\"dilatation\" (where the whole boundary of a source of genus 0 is held) | \"spread\", last_power=32 (2: "
+             "the "
              "mean, 32: the largest |μ|), steps_of_power=12, tolerance=3e-3, progress=None.\n\nRaises BadBoundary, "
              "BadOption.")
         .def_property_readonly("handles", [](const DeformObject& o) { return index_array(o.handles()); })

@@ -68,7 +68,10 @@ HyperbolicMapPtr registered(const py::object& source, const py::object& target, 
     Interruption interruption;
     HyperbolicMapOptions options;
     Keywords keywords(given);
-    const HandleMarking marking = take_marking(keywords, *from->surface, *to->surface);
+    HandleMarking marking = take_marking(keywords, *from->surface, *to->surface);
+    bool search = false;
+    keywords.take("search", search);
+    if (search) marking.search.emplace();
     keywords.iteration(interruption, options);
     keywords.finish();
     const double begun = seconds();
@@ -254,7 +257,7 @@ void bind_maps_of_handles(py::module_& m) {
     m.def("register_handles", &registered, py::arg("source"), py::arg("target"),
           (std::string("The extremal map of a closed surface of genus 2 or more onto another one (Surface or "
                        "HyperbolicShape).\n\n") +
-           kMarking + "\n\n" + kIteration)
+           kMarking + " search=True: the class is sought, without a proof that none is better.\n\n" + kIteration)
               .c_str());
     m.def(
         "hyperbolic_distance_of",

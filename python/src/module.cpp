@@ -31,6 +31,7 @@ PYBIND11_MODULE(_core, m) {
     bind_flow(m);
     bind_distance(m);
     bind_grids(m);
+    bind_pictures(m);
     bind_homotopy(m);
     bind_locate(m);
     bind_moebius(m);

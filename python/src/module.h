@@ -26,6 +26,7 @@ void bind_charts(pybind11::module_& m);
 void bind_flow(pybind11::module_& m);
 void bind_distance(pybind11::module_& m);
 void bind_grids(pybind11::module_& m);
+void bind_pictures(pybind11::module_& m);
 void bind_homotopy(pybind11::module_& m);
 void bind_sphere(pybind11::module_& m);
 void bind_tori(pybind11::module_& m);

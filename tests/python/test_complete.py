@@ -20,7 +20,7 @@ NOT_BOUND: Dict[str, str] = {
     "is what a class of the module is made by, holds or does: Surface, Mesh, Places, Constraints, PlanarMap": """
         surface_of mesh_from face_matrix topology Topology FaceList TextureCoordinates MeshPoint MapEvaluation Shape shape_of
         circle_domain_of SlidingArc SurfaceTarget Mark Waypoint CurveParameter TargetVertex Correspondence on_curve CurvePlace
-        Circle HalfSpace SphereLandmark SurfaceWaypoint LpNorm CurveThrough CurvePair
+        Circle HalfSpace SphereLandmark LpNorm CurveThrough CurvePair
         PlacePair BoundaryPlacement spoils_topology validate locate_in_chart mesh_point boundary_place
         BoundaryPlace Column MeshOutput ReichStrebel ProblemSolver prescribed_target places_on_target
         PrescribedTarget proves texture_of_map CircleDomainChart places_of normals_of positions_of
@@ -32,7 +32,12 @@ NOT_BOUND: Dict[str, str] = {
         PeriodMatrix FollowedMap HoleTurns HomotopyClass LoopPath HoleRing StartInClass LoadedMesh MuStatistics NearestPlace
         FeatureCurves SurfaceDistance TargetMesh DistanceMatrix Merge TorusDistances LeastDilatationMap InChart NoiseCost
         SlackReport ExtremalPiece ProvedBounds SphereRegistration OpenRegistration LpRegistration HandleRegistration
-        HandleMarking SphereLocator""",
+        HandleMarking boundary_lengths DrawnSurface""",
+    "is what register_handles does with search=True": "search_class ClassSearch",
+    "is the picture of deformed_picture, an array, and where it lies": "Picture Box",
+    "is Places.interpolate with texture coordinates": "texture_at",
+    "is a part of maps between hyperbolic surfaces, which register_handles puts together":
+        "edge_between flatness periods_of_images step_at_corner",
     "is told by PlaneGrid": "lines_of",
     "is what Continuation leads: follow and continuation_steps take the way": "Continuation",
     "writes records and pages: to_json(), report() and str() of results": """render_page require_texture PageContent PageMap to_json to_table

@@ -146,8 +146,24 @@ def test_registration() -> None:
     first, second = bt.Surface(bt.disk(8)), bt.Surface(bt.disk(7))
     opened = bt.register_open(first, second, [0], [1])
     assert np.allclose(opened.positions[0, :2], second.positions[1])
+    assert np.allclose(opened.transfer(np.ones(first.vertex_count)), 1)
+
+
+def test_pictures() -> None:
+    disk = bt.Surface(bt.disk(16))
+    z = disk.positions[:, 0] + 1j * disk.positions[:, 1]
+    picture = np.zeros((40, 40, 3), np.uint8)
+    picture[:, 20:] = 255  # white on the right
+    turned = bt.deformed_picture(picture, disk, 1j * z, -1 - 1j, 1 + 1j, width=60)
+    assert turned.dtype == np.uint8 and turned.shape[1:] == (60, 4)
+    middle = turned.shape[0] // 2
+    assert turned[middle - 12, 30, 0] == 255 and turned[middle + 12, 30, 0] == 0 and turned[0, 0, 3] == 0
+    domain = bt.image_domain(disk, 2 * z)
+    assert abs(domain.area - 4 * np.pi) < 0.01 * 4 * np.pi
+    with pytest.raises(TypeError):
+        bt.deformed_picture(picture.astype(float), disk, z, -1 - 1j, 1 + 1j)  # type: ignore[arg-type]
     with pytest.raises(bt.BadOption):
-        opened.transfer(np.zeros(first.vertex_count))
+        bt.deformed_picture(picture[:, :, :1], disk, z, -1 - 1j, 1 + 1j)
 
 
 def test_differentials(disk: bt.Surface) -> None:
