@@ -91,6 +91,7 @@ void cut_folded_polygons(MeshInput& input, Warnings& warnings) {
 
 void take_split(MeshInput& input, const SplitProblem& split) {
     std::vector<std::vector<int>> rows;
+    rows.reserve(input.mesh.vertex_count() + split.parents.size());
     for (int v = 0; v < input.mesh.vertex_count(); ++v) rows.push_back({v});
     for (const std::array<int, 4>& parents : split.parents) {
         rows.emplace_back();
@@ -101,6 +102,7 @@ void take_split(MeshInput& input, const SplitProblem& split) {
     input.mesh = split.mesh;
     input.vertices.resize(rows.size(), -1);
     std::vector<int> faces;
+    faces.reserve(split.face_parents.size());
     for (const int f : split.face_parents) faces.push_back(input.faces[f]);
     input.faces = std::move(faces);
 }

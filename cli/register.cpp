@@ -203,7 +203,7 @@ class Register final : public Command {
     }
 
     template <class Map>
-    void conclude_with(const CarriedSurface& carried, const Map& map, RegistrationPage page, const MeshInput& source,
+    void conclude_with(const CarriedSurface& carried, const Map& map, RegistrationPage&& page, const MeshInput& source,
                        const MeshInput& target) {
         record_.map = map_record(map);
         record_.solve = solve_record(map, seconds() - begun_);

@@ -165,7 +165,8 @@ struct DeformSolver::Parts {
         std::optional<TargetMap> best;
         double least = std::numeric_limits<double>::infinity();
         bool settled = false;
-        for (double power = first_power; power <= options.last_power; power *= 2) {
+        double power = first_power / 2;
+        while ((power *= 2) <= options.last_power) {
             settled = map.relax(power, options.steps_of_power, options.tolerance) < options.steps_of_power;
             if (options.goal != DeformGoal::spread) continue;
             const double spread = mu_statistics(map.coefficients(), elements.operators.weights).standard_deviation;

@@ -224,8 +224,9 @@ Picture deformed_picture(const Picture& picture, const Surface& source, const Ei
                 for (int column = 0; column < result.width; ++column) {
                     Light sum = Light::Zero();
                     for (int i = 0; i < n * n; ++i) {
-                        const Complex w(box.low.real() + pixel * (column + (i % n + 0.5) / n),
-                                        box.high.imag() - pixel * (row + (i / n + 0.5) / n));
+                        const int across = i % n, down = i / n;
+                        const Complex w(box.low.real() + pixel * (column + (across + 0.5) / n),
+                                        box.high.imag() - pixel * (row + (down + 0.5) / n));
                         if (const std::optional<Complex> z = preimage(w)) sum += field.at(*z);
                     }
                     if (!(sum[3] > 0)) continue;

@@ -1,9 +1,9 @@
 #include <beltrami/base/memory.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <cstdlib>
 #include <limits>
+#include <memory>
 #include <mutex>
 
 #if defined(__GLIBC__) && defined(__linux__)
@@ -38,13 +38,13 @@ void ready_memory(std::size_t bytes) {
     });
     const long page_size = sysconf(_SC_PAGESIZE), free_pages = sysconf(_SC_AVPHYS_PAGES);
     if (page_size <= 0 || free_pages <= 0) return;
-    const auto page = static_cast<std::uintptr_t>(page_size);
+    const auto page = static_cast<std::size_t>(page_size);
     bytes = std::min(bytes, static_cast<std::size_t>(free_pages) / 2 * page);
     void* const block = bytes > 0 ? std::malloc(bytes) : nullptr;
     if (!block) return;
-    const auto at = reinterpret_cast<std::uintptr_t>(block);
-    const std::uintptr_t first = (at + page - 1) / page * page, last = (at + bytes) / page * page;
-    if (last > first) madvise(reinterpret_cast<void*>(first), last - first, kPopulate);
+    void* first = block;
+    std::size_t left = bytes;
+    if (std::align(page, page, first, left)) madvise(first, left / page * page, kPopulate);
     std::free(block);
 }
 

@@ -45,7 +45,7 @@ void MeshBuilder::add_face(std::span<const int> vertices, std::span<const int> t
 }
 
 void MeshBuilder::note_large(std::size_t corners, const std::string& place) {
-    if (++large_ > most_named) return;
+    if (++large_ > kMostNamed) return;
     warnings_.push_back({WarningKind::file, fmt::format("{}: a face with {} corners was cut into {} triangles", place,
                                                         corners, corners - 2)});
 }
@@ -86,10 +86,10 @@ LoadedMesh MeshBuilder::finish() {
              name_ + ": the coefficients of the faces go, as those of faces that are cut mean nothing"});
     }
     result.warnings = std::move(warnings_);
-    if (large_ > most_named) {
+    if (large_ > kMostNamed) {
         result.warnings.push_back(
             {WarningKind::file, fmt::format("{}: {} further faces with more than 4 corners were cut into triangles",
-                                            name_, large_ - most_named)});
+                                            name_, large_ - kMostNamed)});
     }
     return result;
 }

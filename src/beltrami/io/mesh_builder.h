@@ -41,7 +41,7 @@ class MeshBuilder {
     template <class Source>
     void add_face(std::span<const int> vertices, std::span<const int> texture, const Source& source) {
         if (vertices.size() > 4 && large_faces_ == LargeFaces::cut)
-            note_large(vertices.size(), large_ < most_named ? source.here() : std::string());
+            note_large(vertices.size(), large_ < kMostNamed ? source.here() : std::string());
         add_face(vertices, texture);
     }
     std::size_t face_count() const { return static_cast<std::size_t>(faces_.size()); }
@@ -54,7 +54,7 @@ class MeshBuilder {
     LoadedMesh finish();
 
   private:
-    static constexpr std::int64_t most_named = 10;  ///< large faces named one by one before they are only counted
+    static constexpr std::int64_t kMostNamed = 10;  ///< large faces named one by one before they are only counted
 
     void note_large(std::size_t corners, const std::string& place);
     void split_large_faces(Mesh& mesh);

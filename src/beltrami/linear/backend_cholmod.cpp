@@ -17,6 +17,7 @@
 #include <beltrami/linear/supernodal_factor.h>
 #include <beltrami/linear/vector_gram.h>
 
+// NOLINTBEGIN(readability-identifier-naming): the names of BLAS
 extern "C" void dsyrk_(const char* uplo, const char* trans, const int* n, const int* k, const double* alpha,
                        const double* a, const int* lda, const double* beta, double* c, const int* ldc);
 extern "C" void zherk_(const char* uplo, const char* trans, const int* n, const int* k, const double* alpha,
@@ -26,6 +27,7 @@ extern "C" void zgemm_(const char* transa, const char* transb, const int* m, con
                        const std::complex<double>* alpha, const std::complex<double>* a, const int* lda,
                        const std::complex<double>* b, const int* ldb, const std::complex<double>* beta,
                        std::complex<double>* c, const int* ldc);
+// NOLINTEND(readability-identifier-naming)
 
 namespace beltrami {
 
@@ -120,23 +122,23 @@ namespace {
 class SerialOpenMp {
   public:
     SerialOpenMp() {
-        if (!get_ || !set_) return;
+        if (!kLevels || !kSetLevels) return;
         const std::scoped_lock lock(mutex_);
         if (inside_++ > 0) return;
-        saved_ = get_();
-        set_(0);
+        saved_ = kLevels();
+        kSetLevels(0);
     }
     ~SerialOpenMp() {
-        if (!get_ || !set_) return;
+        if (!kLevels || !kSetLevels) return;
         const std::scoped_lock lock(mutex_);
-        if (--inside_ == 0) set_(saved_);
+        if (--inside_ == 0) kSetLevels(saved_);
     }
     SerialOpenMp(const SerialOpenMp&) = delete;
     SerialOpenMp& operator=(const SerialOpenMp&) = delete;
 
   private:
-    inline static const auto get_ = loaded_function<int()>("omp_get_max_active_levels");
-    inline static const auto set_ = loaded_function<void(int)>("omp_set_max_active_levels");
+    inline static const auto kLevels = loaded_function<int()>("omp_get_max_active_levels");
+    inline static const auto kSetLevels = loaded_function<void(int)>("omp_set_max_active_levels");
     // The number of levels is that of the program: the last thread to leave restores what the first has found.
     inline static std::mutex mutex_;
     inline static int inside_ = 0, saved_ = 0;

@@ -118,10 +118,10 @@ void match_loop(const std::vector<int>& loop, const std::vector<LoopPlace>& at, 
             const int edge = static_cast<int>(whole);
             match.target_bends.push_back({{rims.vertex(l, edge), rims.vertex(l, edge + 1)}, from - whole, point});
         }
-        for (double j = whole + 1; j < to; ++j) {
+        for (int j = static_cast<int>(whole) + 1; j < to; ++j) {
             const double part = (rims.angle(l, j) - rims.angle(l, from)) / (rims.angle(l, to) - rims.angle(l, from));
             match.source_bends.push_back({{v, next}, part, rims.point(l, j)});
-            partners_of_bends.push_back(rims.vertex(l, static_cast<int>(j) % n));
+            partners_of_bends.push_back(rims.vertex(l, j % n));
             match.target.row(partners_of_bends.back()) = match.source_bends.back().point;
         }
     }

@@ -200,6 +200,7 @@ OverlayMesh overlay_mesh(const SurfaceCorrespondence& map, TransferWay way) {
     const Mesh &from = back ? map.target() : map.source(), &to = back ? map.source() : map.target();
     OverlayMesh result;
     std::vector<MeshPoint> places;
+    places.reserve(both.corners.size());
     for (const Overlay::Corner& corner : both.corners) places.push_back(back ? corner.on_source : corner.on_target);
     result.mesh.positions = positions_on(to, places);
     std::vector<Eigen::RowVector2d> texture;
