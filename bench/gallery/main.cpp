@@ -50,7 +50,7 @@ std::string section(const std::string& name, const Figure& figure) {
         text += "\n";
     }
     for (const std::string& remark : figure.remarks) text += remark + "\n\n";
-    for (const Picture& picture : figure.pictures)
+    for (const gallery::Picture& picture : figure.pictures)
         if (!picture.panels.empty())
             text += "![" + picture.caption + "](gallery/" + picture.name + ".png)\n\n" + picture.caption + "\n\n";
     return text;
@@ -69,7 +69,7 @@ void make(const Page& page, const std::filesystem::path& file, const std::vector
         const Figure figure = entry.make(output);
         if (figure.title.empty()) continue;
         sections[entry.name] = section(entry.name, figure);
-        for (const Picture& picture : figure.pictures)
+        for (const gallery::Picture& picture : figure.pictures)
             if (!picture.panels.empty()) pictures.push_back({{"name", picture.name}, {"panels", picture.panels}});
     }
     std::ofstream text(file);
