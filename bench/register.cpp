@@ -1,17 +1,16 @@
-// Extremal maps of the sphere with landmarks: errors of k against closed forms, and seconds of registrations against
-// one harmonic map of the source.
+// Extremal maps of the sphere with landmarks: errors of k against closed forms, and processor seconds of registrations
+// against one harmonic map of the source.
 //
 //     bench_register                       four and eight landmarks at 2048, 8192 and 32 768 faces
 //     bench_register A B PAIRS [...]       seconds of maps A → B with a file of lines `source_vertex target_vertex`
 //     bench_register --noisy MESH          a surface with boundary onto its own noisy copy, six landmarks inside (also
 //                                          soft) that are off by two edges
 //
-// harmonic = operators, ordering, analysis, assembly, factorisation and solution, median of three, of the mesh less one
+// harmonic = operators, ordering, analysis, assembly, factorisation and solution, mean of three, of the mesh less one
 // face; the maps of both surfaces to the sphere are timed apart.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <string>
 #include <vector>
 
@@ -28,17 +27,13 @@ namespace {
 
 using namespace beltrami;
 
-double now() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
 void oracle(const std::string& name, const bench::SphereLandmarks& problem) {
     const Surface surface(problem.mesh);
-    const double start = now();
+    const double start = bench::processor_seconds();
     const ExtremalSphereMap map = extremal_sphere_map(surface, problem.mesh.positions, problem.landmarks);
     fmt::print("| {} | {} | {:.5f} | {:.1e} | {:.4f} | {} | {} | {:.2f} |\n", name, problem.mesh.face_count(),
                problem.exact_k, map.k - problem.exact_k, map.weighted_deviation, map.distortion.flipped.size(),
-               map.iterations, now() - start);
+               map.iterations, bench::processor_seconds() - start);
     std::fflush(stdout);
 }
 
@@ -63,12 +58,13 @@ void pair(const char* a, const char* b, const char* pairs) {
     std::vector<SurfaceLandmark> landmarks;
     for (const auto& row : read_rows(pairs, 2, "a landmark"))
         landmarks.push_back({static_cast<int>(row[0]), place_of_vertex(target.mesh, static_cast<int>(row[1]))});
-    const double of_harmonic = bench::closed_harmonic(source.mesh), begun = now();
+    const double of_harmonic = bench::closed_harmonic_processor_seconds(source.mesh),
+                 begun = bench::processor_seconds();
     (void)sphere_map(source);
     (void)sphere_map(target);
-    const double middle = now();
+    const double middle = bench::processor_seconds();
     const SphereRegistration found = register_spheres(source, target, landmarks);
-    const double whole = now() - middle, beyond = whole - (middle - begun);
+    const double whole = bench::processor_seconds() - middle, beyond = whole - (middle - begun);
     fmt::print(
         "| {} | {} | {} | {} | {:.4f} | {:.4f} | {:.4f} | {:.3f} | {} | {} | {} | {} | {:.3f} | {:.2f} | {:.0f} |\n", a,
         b, landmarks.size(), source.mesh.face_count(), found.map.k, found.inverse_k.value_or(0),
@@ -87,11 +83,11 @@ void noisy(const char* path) {
     for (const double weight : {std::numeric_limits<double>::infinity(), 1e4, 1e2, 1.0}) {
         const bench::NoisyCopy copy = bench::noisy_copy(source, {.weight = weight});
         const Surface target(copy.mesh);
-        const double begun = now();
+        const double begun = bench::processor_seconds();
         const OpenRegistration found = register_open(source, target, copy.landmarks);
         fmt::print("| {:.0e} | {:.4f} | {:.4f} | {:.4f} | {:.4f} | {} | {:.3f} | {:.2f} |\n", weight, found.map.k,
                    found.inverse_k.value_or(0), found.map.K_lower, found.map.K, found.map.distortion.flipped.size(),
-                   found.largest_distance.value_or(0) / copy.edge, now() - begun);
+                   found.largest_distance.value_or(0) / copy.edge, bench::processor_seconds() - begun);
         std::fflush(stdout);
     }
 }

@@ -1,13 +1,12 @@
-// Seconds of the conformal map of closed surfaces to the sphere against one harmonic map of the same mesh.
+// Processor seconds of the conformal map of closed surfaces to the sphere against one harmonic map of the same mesh.
 //
 //     bench_sphere [MESH...]        default: spheres with bumps, 20 480 and 81 920 triangles, and a ball with limbs
 //
-// harmonic = operators, ordering, analysis, assembly, factorisation and solution, median of three, of the mesh less one
+// harmonic = operators, ordering, analysis, assembly, factorisation and solution, mean of three, of the mesh less one
 // face; sphere = sphere_map() of the surface, median of three.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -22,10 +21,6 @@
 namespace {
 
 using namespace beltrami;
-
-double now() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 /// A sphere with bumps of two sizes.
 Mesh bumps(int levels) {
@@ -50,14 +45,14 @@ Mesh limbs(int levels) {
 }
 
 void measure(const std::string& name, Mesh mesh) {
-    const double of_harmonic = bench::closed_harmonic(mesh);
+    const double of_harmonic = bench::closed_harmonic_processor_seconds(mesh);
     const Surface surface(std::move(mesh));
     std::vector<double> seconds;
     SphereMap map;
     for (int round = 0; round < 3; ++round) {
-        const double start = now();
+        const double start = bench::processor_seconds();
         map = sphere_map(surface);
-        seconds.push_back(now() - start);
+        seconds.push_back(bench::processor_seconds() - start);
     }
     std::sort(seconds.begin(), seconds.end());
     fmt::print("| {} | {} | {:.3f} | {:.3f} | {:.1f} | {} | {} | {} | {:.4f} / {:.4f} / {:.4f} |\n", name,

@@ -56,29 +56,29 @@ using bench::four_landmarks;
 INSTANTIATE_TEST_SUITE_P(
     Landmarks, SphereOracle,
     testing::Values(
-        Known{"four_small", .05934, [](int l) { return four_landmarks(l, 1); }, {2e-5, 9e-6}, {.016, .0084}},
-        Known{"four", .23220, [](int l) { return four_landmarks(l, 2); }, {1.2e-5, 9e-6}, {.0415, .0233}},
-        Known{"four_large", .05748, [](int l) { return four_landmarks(l, 4); }, {1.4e-5, 8e-6}, {.0357, .0207}},
+        Known{"four_small", .05934, [](int l) { return four_landmarks(l, 1); }, {1e-6, 3e-7}, {.016, .0084}},
+        Known{"four", .23220, [](int l) { return four_landmarks(l, 2); }, {2e-5, 9e-6}, {.0415, .0233}},
+        Known{"four_large", .05748, [](int l) { return four_landmarks(l, 4); }, {1e-6, 3e-7}, {.0357, .0207}},
         Known{"eight_small",
               .13144,
               [](int l) {
                   return eight_landmarks(l, {.6, 1.5, .3}, {.7, 1.3, .55});
               },
-              {4.2e-5, 1e-5},
+              {7e-6, 6e-7},
               {.0108, .0070}},
         Known{"eight",
               .27385,
               [](int l) {
                   return eight_landmarks(l, {.6, 1.5, .3}, {.8, 1.2, .9});
               },
-              {2.2e-4, 1.2e-4},
+              {4e-5, 2.4e-5},
               {.0232, .0147}},
         Known{"eight_large",
               .38514,
               [](int l) {
                   return eight_landmarks(l, {.6, 1.5, .2}, {.9, 1.1, 1.0});
               },
-              {9.5e-4, 4.6e-4},
+              {1.7e-4, 8e-5},
               {.0328, .0213}}),
     [](const auto& test) { return std::string(test.param.name); });
 

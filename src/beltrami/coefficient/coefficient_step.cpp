@@ -75,21 +75,27 @@ CoefficientStep::CoefficientStep(const Surface& source, const Chart& chart, cons
         cells_.emplace(chart, areas_, phase);
         quadrature_ = {cells_->nodes(), cells_->node_weights(areas_)};
     } else {
-        make_clusters(points_near(singularities_, source_, chart_));
+        make_clusters_near();
     }
 }
 
 CoefficientStep::CoefficientStep(const Surface& source, const Chart& chart, const Singularities& singularities,
                                  double phase, int cluster_count, SamplePoints means)
     : CoefficientStep(source, chart, singularities, phase, cluster_count, areas_in_domain(source.operators, chart)) {
-    make_clusters(std::move(means));
+    make_clusters(means);
+    sampled_.keep_means(std::move(means));
 }
 
-void CoefficientStep::make_clusters(SamplePoints means) {
+void CoefficientStep::make_clusters_near() {
+    SamplePoints means = points_near(singularities_, source_, chart_);
+    make_clusters(means);
+    sampled_.set_means(std::move(means));
+}
+
+void CoefficientStep::make_clusters(const SamplePoints& means) {
     clusters_ = cluster_samples(source_.operators, chart_, singularities_, phase_,
                                 soft_ ? std::max(cluster_count_, kClustersWithCurves) : cluster_count_);
     set_quadrature(means);
-    sampled_.set_means(std::move(means));
 }
 
 /// The clusters' points; where a cluster is one sample that has several, those.
@@ -144,7 +150,7 @@ void CoefficientStep::set_space(const DifferentialSpace& space) {
         at_places_ = SplitMatrix(space.generators(in_domain(cells_->places())));
         return;
     }
-    if (clusters_.cluster.empty()) make_clusters(points_near(singularities_, source_, chart_));
+    if (clusters_.cluster.empty()) make_clusters_near();
     problem_.basis = space.tabulated() ? means_over_clusters(*space.tabulated(), clusters_, chart_)
                                        : space.evaluate(in_domain(quadrature_.points));
     if (space.tabulated() && space.transform()) problem_.basis = complex_product(problem_.basis, *space.transform());

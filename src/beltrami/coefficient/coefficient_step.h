@@ -36,7 +36,8 @@ class CoefficientStep {
     /// @param sums  over cells only where φ has no singularities, and where there are more samples than clusters
     CoefficientStep(const Surface& source, const Chart& chart, const Singularities& singularities, double phase,
                     int cluster_count, Sums sums = Sums::over_samples);
-    /// The same with samples that have several points given: those of points_near() else.
+    /// The same with samples that have several points given, on meshes of any size: those of points_near() else. Of
+    /// spaces of few functions.
     CoefficientStep(const Surface& source, const Chart& chart, const Singularities& singularities, double phase,
                     int cluster_count, SamplePoints means);
 
@@ -81,7 +82,8 @@ class CoefficientStep {
     Eigen::VectorXcd begin(const Eigen::VectorXcd& start);
     CoefficientStep(const Surface& source, const Chart& chart, const Singularities& singularities, double phase,
                     int cluster_count, Eigen::VectorXd areas);
-    void make_clusters(SamplePoints means);
+    void make_clusters(const SamplePoints& means);
+    void make_clusters_near();  // the singularities
     /// A part of a cluster.
     struct Part {
         int cluster;

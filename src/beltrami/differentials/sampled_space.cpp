@@ -43,6 +43,11 @@ void SampledSpace::set_means(SamplePoints means) {
     if (!large_) means_ = std::move(means);
 }
 
+void SampledSpace::keep_means(SamplePoints means) {
+    large_ = false;
+    means_ = std::move(means);
+}
+
 Eigen::VectorXcd SampledSpace::combination_at_means(const Eigen::VectorXcd& coefficients) const {
     if (means_.samples.empty()) return {};
     return at_means_.times(space_->of_generators(coefficients));

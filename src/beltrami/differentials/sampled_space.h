@@ -37,6 +37,8 @@ class SampledSpace {
 
     /// Values at some samples are means over points of theirs from now on, as far as values are kept for every sample.
     void set_means(SamplePoints means);
+    /// The same of spaces of few functions: values are kept for every sample, however many there are.
+    void keep_means(SamplePoints means);
     /// The points, none where values are not kept; a combination at them, and pairings with weights at them.
     const SamplePoints& means() const { return means_; }
     Eigen::VectorXcd combination_at_means(const Eigen::VectorXcd& coefficients) const;

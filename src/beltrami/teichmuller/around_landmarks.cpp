@@ -8,14 +8,12 @@ namespace beltrami {
 
 namespace {
 
-constexpr int kHalvings = 2, kRings = 1;
-
 /// #E 1 for the edges of faces at the vertices and of the rings around those.
-std::vector<char> edges_around(const Surface& surface, std::span<const int> landmarks) {
+std::vector<char> edges_around(const Surface& surface, std::span<const int> landmarks, int rings) {
     std::vector<char> edges(static_cast<std::size_t>(surface.topology.edge_count()), 0),
         reached(static_cast<std::size_t>(surface.mesh.vertex_count()), 0);
     for (const int v : landmarks) reached[v] = 1;
-    for (int ring = 0; ring <= kRings; ++ring) {
+    for (int ring = 0; ring <= rings; ++ring) {
         std::vector<char> next = reached;
         for (int f = 0; f < surface.mesh.face_count(); ++f) {
             const auto corners = surface.mesh.faces[f];
@@ -41,15 +39,24 @@ Positions with_midpoints(const Positions& map, const Topology& topology, const s
     return result;
 }
 
+void halve(const std::vector<char>& marked, AroundLandmarks& around) {
+    for (Positions& map : around.maps) map = with_midpoints(map, around.surface.topology, marked);
+    around.surface = split_edges(around.surface, {}, marked).surface;
+}
+
 }  // namespace
 
-AroundLandmarks refined_around(const Surface& source, std::span<const int> landmarks, std::vector<Positions> maps) {
+AroundLandmarks refined_around(const Surface& source, std::span<const int> landmarks, std::vector<Positions> maps,
+                               Fineness fineness) {
     AroundLandmarks result{source, std::move(maps)};
-    for (int halving = 0; halving < kHalvings; ++halving) {
-        const std::vector<char> marked = edges_around(result.surface, landmarks);
-        for (Positions& map : result.maps) map = with_midpoints(map, result.surface.topology, marked);
-        result.surface = split_edges(result.surface, {}, marked).surface;
-    }
+    for (int halving = 0; halving < fineness.halvings; ++halving)
+        halve(edges_around(result.surface, landmarks, fineness.rings), result);
+    return result;
+}
+
+AroundLandmarks refined_everywhere(const Surface& source, std::vector<Positions> maps) {
+    AroundLandmarks result{source, std::move(maps)};
+    halve(std::vector<char>(static_cast<std::size_t>(source.topology.edge_count()), 1), result);
     return result;
 }
 
