@@ -252,6 +252,33 @@ Marking marking_by_loops(const Surface& source, const IntrinsicTriangulation& tr
     return marking;
 }
 
+namespace {
+
+/// Half-edges with one tail strictly between two of them, counter-clockwise.
+std::vector<int> fan_between(const IntrinsicTriangulation& triangulation, int from, int to) {
+    const auto next = [&](int h) { return triangulation.twin(IntrinsicTriangulation::previous(h)); };
+    std::vector<int> fan;
+    for (int h = next(from); h != to; h = next(h)) fan.push_back(h);
+    return fan;
+}
+
+/// How a curve beside a closed path passes one of its vertices: on the left, or on the right where the surface ends on
+/// the left; and the half-edges that it crosses there.
+struct Passage {
+    bool on_the_right = false;
+    std::vector<int> crossed;
+
+    /// @param own half-edges of the surface itself, the first ones
+    Passage(const IntrinsicTriangulation& triangulation, int own, int ahead, int back) {
+        crossed = fan_between(triangulation, ahead, back);
+        if (ahead < own && std::ranges::all_of(crossed, [&](int h) { return h < own; })) return;
+        on_the_right = true;
+        crossed = fan_between(triangulation, back, ahead);
+    }
+};
+
+}  // namespace
+
 EquivariantMap twisted(const Surface& source, const IntrinsicTriangulation& triangulation, EquivariantMap map,
                        const std::vector<int>& path, int turns) {
     require_triangles(source);
@@ -259,23 +286,29 @@ EquivariantMap twisted(const Surface& source, const IntrinsicTriangulation& tria
     std::vector<char> visited(static_cast<std::size_t>(triangulation.vertex_count()), 0);
     for (const int v : path)
         if (visited[v]++) throw bad_path("the path meets vertex " + std::to_string(v) + " twice", {v});
-    for (const int v : path)
-        if (source.topology.on_boundary[v])
-            throw bad_path("the path meets the boundary, at vertex " + std::to_string(v), {v});
-    std::vector<MarkedStep> steps = with_mirror_images(halfedge_steps(source, map), source.topology);
+    const auto own = static_cast<int>(source.mesh.faces.vertices().size());
+    std::vector<Passage> passages;
+    passages.reserve(along.size());
+    for (std::size_t i = 0; i < along.size(); ++i)
+        passages.emplace_back(triangulation, own, along[i],
+                              triangulation.twin(along[(i + along.size() - 1) % along.size()]));
+    const std::vector<MarkedStep> steps = with_mirror_images(halfedge_steps(source, map), source.topology);
     MarkedStep holonomy = steps[along[0]];
     for (std::size_t i = 1; i < along.size(); ++i) holonomy = holonomy * steps[along[i]];
     std::vector<MarkedStep> result = steps;
+    const auto turn_first = [&](const MarkedStep& turn, int h) {
+        result[h] = turn * result[h];
+        result[triangulation.twin(h)] = result[h].inverse();
+    };
     for (std::size_t i = 0; i < along.size(); ++i) {
-        // All edges that leave the path to its left first go around it; counter to its direction that is a turn left.
+        // What crosses the curve to its left first goes around it; counter to its direction that is a turn left. Where
+        // the curve passes on the right of the path, what leaves the path crosses it to its right.
+        const bool right = passages[i].on_the_right, next_right = passages[(i + 1) % along.size()].on_the_right;
         MarkedStep turn{{}, Eigen::RowVectorXi::Zero(map.classes.cols())};
-        for (int n = 0; n < std::abs(turns); ++n) turn = turn * (turns > 0 ? holonomy.inverse() : holonomy);
-        const int back = along[(i + along.size() - 1) % along.size()];
-        for (int h = triangulation.twin(IntrinsicTriangulation::previous(along[i])); h != triangulation.twin(back);
-             h = triangulation.twin(IntrinsicTriangulation::previous(h))) {
-            result[h] = turn * result[h];
-            result[triangulation.twin(h)] = result[h].inverse();
-        }
+        const bool against = (turns > 0) != right;
+        for (int n = 0; n < std::abs(turns); ++n) turn = turn * (against ? holonomy.inverse() : holonomy);
+        for (const int h : passages[i].crossed) turn_first(turn, h);
+        if (right != next_right) turn_first(turn, along[i]);
         holonomy = steps[along[i]].inverse() * holonomy * steps[along[i]];
     }
     set_halfedge_steps(source, result, map);

@@ -48,7 +48,7 @@ Marking marking_by_loops(const Surface& source, const IntrinsicTriangulation& tr
                          const std::vector<std::vector<int>>& paths, const std::vector<std::vector<int>>& images);
 
 /// The class after as many Dehn twists of the source about a simple closed path, to the left if positive.
-/// @param path closed, of vertices of the source, no vertex twice and none on the boundary
+/// @param path closed, of vertices of the source, no vertex twice; where it meets the boundary, about a curve beside it
 /// @throw Error bad_option for a path that is none
 EquivariantMap twisted(const Surface& source, const IntrinsicTriangulation& triangulation, EquivariantMap map,
                        const std::vector<int>& path, int turns);

@@ -1,4 +1,6 @@
 // Extremal maps that slide along the boundary, as halves of maps between doubles.
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -183,6 +185,70 @@ TEST(HyperbolicSlidingStart, HasNoFolds) {
     }
 }
 
+/// A path along the grid of slit_torus(n), modulo n, from corner to corner; an edge joins the last one to the first.
+std::vector<int> grid_path(const SlitTorus& torus, int n, const std::vector<std::array<int, 2>>& corners) {
+    const auto at = [&](int i, int j) {
+        const auto wrapped = [&](int x) { return static_cast<double>((x % n + n) % n) / n; };
+        const Eigen::RowVector2d place(wrapped(i), wrapped(j));
+        Eigen::Index nearest = 0;
+        (torus.places.rowwise() - place).rowwise().squaredNorm().minCoeff(&nearest);
+        return static_cast<int>(nearest);
+    };
+    std::vector<int> path{at(corners[0][0], corners[0][1])};
+    for (std::size_t c = 0; c + 1 < corners.size(); ++c) {
+        auto [i, j] = corners[c];
+        const auto [to_i, to_j] = corners[c + 1];
+        while (i != to_i || j != to_j) {
+            i += (to_i > i) - (to_i < i);
+            j += (to_j > j) - (to_j < j);
+            path.push_back(at(i, j));
+        }
+    }
+    return path;
+}
+
+TEST(HyperbolicBoundary, TwistsAboutPathsThatMeetTheBoundary) {
+    // The hole is [4, 12] × [6, 10]. Each path beside one of the same class that is far from it.
+    constexpr int n = 16;
+    using Corners = std::vector<std::array<int, 2>>;
+    struct Case {
+        Corners far;
+        std::vector<Corners> near;
+    };
+    const std::vector<Case> cases{
+        {{{0, 0}, {n - 1, 0}}, {{{0, 6}, {n - 1, 6}}, {{0, 10}, {n - 1, 10}}}},
+        {{{0, 0}, {0, n - 1}}, {{{4, 0}, {4, n - 1}}, {{12, 0}, {12, n - 1}}}},
+        // The hole on its left, and later on its right.
+        {{{3, 5}, {9, 5}, {9, -5}, {18, -5}, {18, -11}}, {{{4, 6}, {8, 6}, {8, -6}, {19, -6}, {19, -10}}}}};
+    const SlitTorus a = bench::slit_torus(n, 1, 1), b = bench::slit_torus(24, 1.5, 2);
+    const HyperbolicShape source(a.surface), target(b.surface);
+    const EquivariantMap start =
+        marking_by_vertices(a.surface, source.metric().original, target.group(), same_places(a, b)).map;
+    const auto map_of = [&](const std::vector<int>& path, int turns) {
+        const EquivariantMap after = twisted(a.surface, source.metric().original, start, path, turns);
+        EXPECT_LT(flatness(a.surface, after).maxCoeff(), 1e-6);
+        return hyperbolic_map(source, target, after);
+    };
+    for (const Case& c : cases)
+        for (const int turns : {1, -1}) {
+            const HyperbolicMap far = map_of(grid_path(a, n, c.far), turns);
+            EXPECT_GT(far.k, 0.3);
+            for (const Corners& corners : c.near) {
+                std::vector<int> path = grid_path(a, n, corners);
+                const HyperbolicMap there = map_of(path, turns);
+                std::ranges::reverse(path);
+                const HyperbolicMap back = map_of(path, turns);
+                // The same class: the boundary slides.
+                for (const HyperbolicMap* map : {&there, &back}) {
+                    EXPECT_EQ(map->homology, far.homology);
+                    EXPECT_NEAR(map->k, far.k, 1e-8);
+                }
+            }
+        }
+    // About a path all along the boundary a twist changes nothing, as the boundary slides.
+    EXPECT_NEAR(map_of(a.surface.topology.boundary_loops[0], 1).k, hyperbolic_map(source, target, start).k, 1e-8);
+}
+
 TEST(HyperbolicBoundary, EarsAreSplit) {
     // A face with two boundary edges has its corners on one geodesic, and no area there.
     Mesh mesh = test::disk_with_holes({{-0.4, 0.1, 0.2}, {0.35, 0, 0.25}}, 0.1);
@@ -238,9 +304,11 @@ TEST(HyperbolicBoundary, WhatIsNoMapIsRefused) {
     EXPECT_EQ(test::cause_of([&] { hyperbolic_map(source, double_torus_shape, {}); }), Cause::bad_mesh);
     // A disk, a ring.
     EXPECT_EQ(test::cause_of([] { hyperbolic_surface(Surface(rectangle(1, 1, 3, 3))); }), Cause::bad_mesh);
-    // A twist about a path along the boundary.
-    EXPECT_EQ(test::cause_of(
-                  [&] { twisted(a.surface, source.metric().original, {}, a.surface.topology.boundary_loops[0], 1); }),
+    // A twist about a path that meets itself.
+    EXPECT_EQ(test::cause_of([&] {
+                  const std::vector<int>& loop = a.surface.topology.boundary_loops[0];
+                  twisted(a.surface, source.metric().original, {}, {loop[0], loop[1], loop[0], loop[1]}, 1);
+              }),
               Cause::bad_option);
 }
 
