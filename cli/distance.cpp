@@ -138,7 +138,8 @@ class DistanceCommand final : public Command {
         for (const auto& [i, j] : matrix.unsettled)
             record_.warnings.push_back({WarningKind::distance,
                                         meshes_[i] + " and " + meshes_[j] +
-                                            ": a map has not converged or has folds, their distance is an estimate",
+                                            ": a map has not converged, has folds or is below what the meshes resolve; "
+                                            "their distance is an estimate",
                                         {Things::shapes, {i, j}}});
     }
 

@@ -60,6 +60,25 @@ class RegisterTori(Command):
         least = self.register("--marking", "search")["map"]["K"]
         self.assertAlmostEqual(least, natural, delta=1e-9)
 
+    def test_quads_have_the_class_of_their_triangles(self):
+        self.tori()
+        quads = [[i * 20 + j, (i + 1) % 40 * 20 + j, (i + 1) % 40 * 20 + (j + 1) % 20, i * 20 + (j + 1) % 20]
+                 for i in range(40) for j in range(20)]
+        write_obj(self.path("a.obj"), self.source, quads)
+        self.assertAlmostEqual(self.register()["map"]["K"], math.sqrt(3), delta=1e-2)
+        twisted = self.register("--twist", f"1:{self.write_path('ap.txt', [i * 20 for i in range(40)])}")
+        self.assertAlmostEqual(twisted["map"]["K"], 3.776668, delta=4e-2)
+        self.assertEqual(twisted["map"]["flipped"], 0)
+
+    def test_a_class_of_no_map_is_refused(self):
+        self.tori()
+        # All of a small copy is nearest to a part of the target.
+        write_obj(self.path("a.obj"), 0.1 * self.source + [5, 0, 0], self.faces)
+        text = self.run_command("register", self.path("a.obj"), self.path("b.obj"), "-o", self.path("out.obj"),
+                                code=2).stderr
+        self.assertIn("not 1", text)
+        self.assertIn("alignment", text)
+
     def test_what_contradicts_itself_is_refused(self):
         self.tori()
         loops = self.loops(False)

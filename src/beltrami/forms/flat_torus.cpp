@@ -101,9 +101,9 @@ void require_embedded(const FlatTorus& torus) {
         if (!(double_area(corners_of(torus, dual, t)) > 0))
             throw Error(
                 Cause::not_solved,
-                "triangles are flipped or collapse on the flat torus: the surface has parts too thin for double "
-                "precision",
-                "remesh the surface, with edges of like length side by side",
+                "triangles are flipped or collapse on the flat torus: the mesh is too coarse, or has parts too thin for "
+                "double precision",
+                "remesh the surface: more faces, with edges of like length side by side",
                 {Things::faces, {torus.forms->metric.faces[t]}});
 }
 

@@ -178,9 +178,21 @@ TorusMap register_tori(const Surface& source, const Surface& target, const std::
         const IntrinsicTriangulation here = triangulation_of(source, from), there = triangulation_of(target, to);
         const std::vector<DiskIsometry> steps(static_cast<std::size_t>(there.halfedge_count()));
         const EdgeGroup group{there, steps, target.topology, to.homology};
-        const Marking chosen = choose(source, here, target.mesh, to.forms->metric.triangles, group, *marking);
+        // Classes are told along triangles.
+        std::optional<Surface> cut;
+        if (from.forms->metric.triangles.size() != source.mesh.face_count())
+            cut.emplace(Mesh{source.mesh.positions, from.forms->metric.triangles, {}});
+        const Surface& triangles = cut ? *cut : source;
+        const Marking chosen = choose(triangles, here, target.mesh, to.forms->metric.triangles, group, *marking);
         options.marking =
-            marking_of_periods(from, to, periods_of_images(source.topology, chosen.map, from.homology.loops));
+            marking_of_periods(from, to, periods_of_images(triangles.topology, chosen.map, from.homology.loops));
+        if (options.marking->determinant() != 1)
+            throw Error(Cause::bad_option,
+                        "the class that was told is that of no homeomorphism that keeps the orientation: what it does "
+                        "to loops has determinant " +
+                            std::to_string(options.marking->determinant()) + ", not 1",
+                        "bring the source nearer to the target (by an alignment, say), tell the class by loops or by a "
+                        "start, or take the class of least dilatation");
         const int first = source.mesh.faces.vertices()[0];
         options.vertices = {first, chosen.map.bases[static_cast<std::size_t>(first)]};
     }

@@ -117,7 +117,8 @@ double homology_bound(const HyperbolicShape& source, const HyperbolicShape& targ
     if (!kept || !(std::abs(std::abs(P.determinant()) - 1) < 0.5))
         throw Error(Cause::bad_option,
                     "the start is not of degree 1: it does not keep the intersection numbers of loops",
-                    "turn the faces of one surface round, or give another start");
+                    "bring the source nearer to the target (by an alignment, say), tell the class by a start or by "
+                    "loops, or turn the faces of one surface round");
     const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> ratios(
         target.forms().energies, P.transpose() * source.forms().energies * P, Eigen::EigenvaluesOnly);
     const Eigen::VectorXd& values = ratios.eigenvalues();
@@ -218,7 +219,12 @@ HyperbolicMap hyperbolic_map(const HyperbolicShape& source, const HyperbolicShap
             {WarningKind::edges_split, std::to_string(source.split()->split_edges) +
                                            " edges between boundary vertices were split at their midpoints"});
     result.k_in_space = coefficient_step.solve(result.in_space.mu, last.direction).k;
-    if (result.K_homology > result.K * (1 + kUnresolvedK))
+    const bool below_bound = result.K_homology > result.K * (1 + kUnresolvedK);
+    if (iteration.converged() && !result.one_to_one())
+        result.termination = Termination::unconfirmed;
+    else if (iteration.converged() && below_bound)
+        result.termination = Termination::below_bound;
+    if (below_bound)
         result.warnings.push_back({WarningKind::below_bound,
                                    "K is " + std::to_string(result.K) + ", and energies of harmonic forms ask for " +
                                        std::to_string(result.K_homology) +
