@@ -1,4 +1,5 @@
 #include "gallery/gallery.h"
+#include "gallery/handles.h"
 
 namespace beltrami::gallery {
 
@@ -104,8 +105,18 @@ const Page& flows() {
 const Page& higher_genus() {
     static const Page page{"gallery-genus.md",
                            "# Gallery: higher genus\n\n"
-                           "Extremal maps between closed surfaces of genus 2 and 3, made by `./run gallery`.\n\n",
-                           {{"genus", genus}}};
+                           "Extremal maps between surfaces of genus 2 and 3, and between surfaces with a boundary as\n"
+                           "halves of their doubles, made by `./run gallery`.\n\n",
+                           {{"genus", genus},
+                            {"genus_deformed", genus_deformed},
+                            {"genus_twists", genus_twists},
+                            {"genus_three", genus_three},
+                            {"genus_scan", genus_scan},
+                            {"genus_search", genus_search},
+                            {"genus_distance", genus_distance},
+                            {"genus_boundary", genus_boundary},
+                            {"genus_open_scans", genus_open_scans},
+                            {"genus_starts", genus_starts}}};
     return page;
 }
 
