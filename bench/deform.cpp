@@ -16,19 +16,20 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Geometry>
-
 #include <beltrami/applications/handled_surface.h>
 #include <beltrami/beltrami.h>
 #include <beltrami/mesh/submesh.h>
 #include <beltrami/space/corner_elements.h>
 #include <beltrami/space/uniform_map.h>
+#include <beltrami/space/unrolled_map.h>
 
 #include "picture_data.h"
+#include "space_cases.h"
 
 namespace {
 
 using namespace beltrami;
+using namespace bench;
 using std::numbers::pi;
 
 PictureData pictures;
@@ -36,11 +37,6 @@ PictureData pictures;
 double now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
-
-struct Handles {
-    std::vector<int> vertices;
-    Positions places;
-};
 
 struct Case {
     std::string name;
@@ -78,10 +74,13 @@ void line(const Case& c, const std::string& method, const Positions& positions, 
     if (c.pictured(method)) pictures.add(method, image, d.face_abs_mu);
 }
 
-/// Gruber and Aulisa's: the least-squares conformal map and the QC iteration, oriented as the target is.
-void least_squares(const Case& c, Preserve preserve, const Target* target, int steps) {
-    std::vector<char> fixed(static_cast<std::size_t>(c.surface.mesh.vertex_count()), 0);
+/// Gruber and Aulisa's: the least-squares conformal map and the QC iteration, oriented as the target is. On the
+/// cylinder they are solved for where it is unrolled; with the normals preserved vertices would leave it.
+void least_squares(const Case& c, const Target* target, int steps) {
+    const auto n = static_cast<std::size_t>(c.surface.mesh.vertex_count());
+    std::vector<char> fixed(n, 0);
     Positions places = Positions::Zero(c.surface.mesh.vertex_count(), 3);
+    for (int v = 0; v < c.surface.mesh.vertex_count(); ++v) places.row(v) = c.surface.mesh.point(v);
     for (std::size_t i = 0; i < c.handles.vertices.size(); ++i) {
         fixed[c.handles.vertices[i]] = 1;
         places.row(c.handles.vertices[i]) = c.handles.places.row(static_cast<Eigen::Index>(i));
@@ -92,24 +91,36 @@ void least_squares(const Case& c, Preserve preserve, const Target* target, int s
         const Positions normals = target ? normals_of(nearest_points(*target, positions)) : vertex_normals(image);
         return distortion(c.elements.operators, positions, normals);
     };
-    const auto iterate = [&](const char* name, bool line_search, int passes) {
+    const auto* const rolled = dynamic_cast<const ParametricTarget*>(target);
+    const auto iterate = [&](const std::string& name, bool line_search, int passes, int most) {
         const double start = now();
-        LeastSquaresMap problem(c.surface.mesh, c.elements, places, fixed, preserve);
         UniformOptions options;
-        options.max_iterations = steps;
+        options.max_iterations = most;
         options.tolerance = 1e-4;
         options.line_search = line_search;
         options.smoothing_passes = passes;
-        const UniformMap map = uniform_map(problem, c.surface.mesh, options);
+        UniformMap map;
+        if (rolled) {
+            const UnrolledPlaces unrolled =
+                unrolled_places(*rolled, c.surface.mesh.faces, nearest_points(*target, places)).value();
+            const UnrolledMap found = uniform_unrolled_map(c.surface.mesh, c.elements, unrolled, fixed, options);
+            map.first = positions_of(rolled_up(*rolled, found.first));
+            map.map = positions_of(rolled_up(*rolled, found.vertices));
+            map.solves = found.solves;
+        } else {
+            LeastSquaresMap problem(c.surface.mesh, c.elements, places, fixed, Preserve::nothing);
+            map = uniform_map(problem, c.surface.mesh, options);
+        }
         const double seconds = now() - start;
-        if (!line_search && passes == 1)
+        if (name == "QC iteration")
             line(c, "least squares", map.first, measured(map.first), 1, "", seconds / map.solves);
         line(c, name, map.map, measured(map.map), map.solves, "", seconds);
     };
-    iterate("QC iteration", false, 1);
+    iterate("QC iteration", false, 1, steps);
     if (!target) return;
-    iterate("QC iteration, line search", true, 1);
-    iterate("QC iteration, 3 passes", false, 3);
+    if (rolled) iterate("QC iteration, 20 steps", false, 1, 20);
+    iterate("QC iteration, line search", true, 1, steps);
+    for (const int passes : {2, 3, 5}) iterate(fmt::format("QC iteration, {} passes", passes), false, passes, steps);
 }
 
 void goals(const Case& c, const Target* target, const std::vector<DeformedSurface>& surfaces) {
@@ -143,24 +154,6 @@ void goals(const Case& c, const Target* target, const std::vector<DeformedSurfac
 
 const std::vector<DeformedSurface> kAll{DeformedSurface::thin_plate, DeformedSurface::rigid, DeformedSurface::uniform};
 
-/// The lower rim stays, the upper one is lowered.
-template <class Lowered>
-Handles rims(const Mesh& mesh, Lowered&& lowered) {
-    Handles handles;
-    std::vector<Eigen::Vector3d> places;
-    const Topology combinatorics = topology(mesh);
-    for (const auto& loop : combinatorics.boundary_loops)
-        for (const int v : loop) {
-            Eigen::Vector3d p = mesh.point(v);
-            if (p.z() > 1) p.z() -= lowered(std::atan2(p.y(), p.x()));
-            handles.vertices.push_back(v);
-            places.push_back(p);
-        }
-    handles.places.resize(static_cast<Eigen::Index>(places.size()), 3);
-    for (std::size_t i = 0; i < places.size(); ++i) handles.places.row(static_cast<Eigen::Index>(i)) = places[i];
-    return handles;
-}
-
 void cylinders(bool bump, bool fine) {
     const int n = fine ? 2 : 1;
     for (const Cells cells : {Cells::triangles, Cells::quads})
@@ -175,7 +168,7 @@ void cylinders(bool bump, bool fine) {
                                   return bump ? 2 * part * std::exp(-std::pow(t / 0.6, 2)) : part * (1 - std::cos(t));
                               }),
                          {40, 20, 1});
-            least_squares(c, Preserve::normals, &target, 80);
+            least_squares(c, &target, 80);
             goals(c, &target, {DeformedSurface::automatic});
         }
 }
@@ -187,79 +180,29 @@ void arrows(bool fine) {
             Mesh mesh = rectangle(1, 1, n, n, cells);
             mesh.positions.conservativeResize(Eigen::NoChange, 3);
             mesh.positions.col(2).setZero();
-            Handles handles;
-            for (const auto& loop : topology(mesh).boundary_loops)
-                handles.vertices.insert(handles.vertices.end(), loop.begin(), loop.end());
-            handles.places.resize(static_cast<Eigen::Index>(handles.vertices.size()), 3);
-            for (std::size_t i = 0; i < handles.vertices.size(); ++i) {
-                const Eigen::Vector3d p = mesh.point(handles.vertices[i]);
-                const bool moves = p.x() > 1 - 1e-9 || p.y() > 1 - 1e-9;
-                const double by = moves ? push * p.x() * p.y() : 0;
-                handles.places.row(static_cast<Eigen::Index>(i)) << p.x() - by, p.y() - by, 0;
-            }
+            Handles handles = arrow_head(mesh, push);
             const Case c(fmt::format("arrow head {:.2f}, {}", push, cells == Cells::quads ? "quads" : "triangles"),
                          mesh, std::move(handles), {-90, 90, 1});
             const PlaneTarget plane;
-            least_squares(c, Preserve::nothing, &plane, 99);
+            least_squares(c, &plane, 99);
             goals(c, &plane, {DeformedSurface::automatic});
         }
 }
 
-/// Boundary loops turned about their axes, pulled along them and scaled; every other one the other way, if wanted.
-Handles turned(const Mesh& mesh, double angle, double pull, double scale, bool alternating) {
-    Handles handles;
-    std::vector<Eigen::Vector3d> places;
-    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-    for (int v = 0; v < mesh.vertex_count(); ++v) middle += mesh.point(v) / mesh.vertex_count();
-    int number = 0;
-    for (const auto& loop : topology(mesh).boundary_loops) {
-        Eigen::Vector3d centre = Eigen::Vector3d::Zero(), axis = Eigen::Vector3d::Zero();
-        for (const int v : loop) centre += mesh.point(v) / static_cast<double>(loop.size());
-        for (std::size_t i = 0; i < loop.size(); ++i)
-            axis += (mesh.point(loop[i]) - centre).cross(mesh.point(loop[(i + 1) % loop.size()]) - centre);
-        axis.normalize();
-        if (axis.dot(centre - middle) < 0) axis = -axis;
-        const bool other = alternating && number++ % 2 == 1;
-        const double sign = other ? -1 : 1;
-        const Eigen::AngleAxisd turn(sign * angle, axis);
-        for (const int v : loop) {
-            handles.vertices.push_back(v);
-            places.emplace_back(centre + (other ? 1 / scale : scale) * (turn * (mesh.point(v) - centre)) +
-                                sign * pull * axis);
-        }
-    }
-    handles.places.resize(static_cast<Eigen::Index>(places.size()), 3);
-    for (std::size_t i = 0; i < places.size(); ++i) handles.places.row(static_cast<Eigen::Index>(i)) = places[i];
-    return handles;
-}
-
-template <class Keep>
-Mesh part_of(const Mesh& mesh, Keep&& keep) {
-    std::vector<int> kept;
-    for (int f = 0; f < mesh.face_count(); ++f) {
-        Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-        for (const int v : mesh.faces[f]) middle += mesh.point(v) / mesh.faces.degree(f);
-        if (keep(middle)) kept.push_back(f);
-    }
-    return remove_unreferenced(keep_faces(mesh, kept).mesh).mesh;
-}
-
 void in_space(const std::string& name, const Mesh& mesh, Handles handles) {
     const Case c(name, mesh, std::move(handles), {200, 25, 0.8});
-    least_squares(c, Preserve::nothing, nullptr, 60);
+    least_squares(c, nullptr, 60);
     goals(c, nullptr, kAll);
 }
 
 void tori() {
-    const Mesh mesh = part_of(torus(2, 1, 64, 32),
-                              [](const Eigen::Vector3d& p) { return (p - Eigen::Vector3d(-3, 0, 0)).norm() > 0.85; });
+    const Mesh mesh = torus_with_hole();
     in_space("torus, 60 degrees, pulled by .8", mesh, turned(mesh, pi / 3, 0.8, 1, false));
     in_space("torus, 100 degrees, times 1.3", mesh, turned(mesh, 100 * pi / 180, 0.3, 1.3, false));
 }
 
 void spheres() {
-    const Mesh mesh =
-        part_of(icosahedral_sphere(5), [](const Eigen::Vector3d& p) { return p.cwiseAbs().maxCoeff() < 0.93; });
+    const Mesh mesh = sphere_with_holes();
     in_space("six holes, 60 degrees, moved, scaled", mesh, turned(mesh, pi / 3, 0.3, 1.25, true));
     in_space("six holes, 90 degrees", mesh, turned(mesh, pi / 2, 0, 1, true));
 }

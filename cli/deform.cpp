@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <iterator>
+
 #include <beltrami/applications/deform.h>
 #include <beltrami/base/error.h>
 
@@ -97,15 +100,27 @@ class Deform final : public Command {
         return solver.solve_onto(MeshTarget(target_in_space(target_, input_.unit, record_.warnings)), handles.places);
     }
 
+    void warn_of_flips(const Deformation& result) {
+        const auto warn = [&](const std::vector<int>& faces, const char* why) {
+            if (faces.empty()) return;
+            record_.warnings.push_back({WarningKind::flipped_faces,
+                                        counted(faces.size(), "face is flipped", "faces are flipped") +
+                                            " on the surface, the first is face " + std::to_string(faces[0]) + why,
+                                        {Things::faces, faces}});
+        };
+        warn(
+            result.forced,
+            ": all corners of a triangle there, or of a quad's corner, have places that turn it over, and no map opens "
+            "it");
+        std::vector<int> others;
+        std::set_difference(result.distortion.flipped.begin(), result.distortion.flipped.end(), result.forced.begin(),
+                            result.forced.end(), std::back_inserter(others));
+        warn(others, ": move the handles in smaller steps, or take a finer mesh");
+    }
+
     void conclude(const Surface& surface, std::size_t handles, const Deformation& result, double start) {
         append(record_.warnings, result.warnings);
-        if (const std::vector<int>& flipped = result.distortion.flipped; !flipped.empty())
-            record_.warnings.push_back(
-                {WarningKind::flipped_faces,
-                 counted(flipped.size(), "face is flipped", "faces are flipped") +
-                     " on the surface, the first is face " + std::to_string(flipped[0]) +
-                     ": where all corners of a triangle, or of a quad's corner, have places no map can open it",
-                 {Things::faces, flipped}});
+        warn_of_flips(result);
         if (!result.folds.empty()) {
             std::vector<int> ends;
             for (const auto& edge : result.folds) ends.insert(ends.end(), edge.begin(), edge.end());

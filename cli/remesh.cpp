@@ -72,6 +72,8 @@ class Remesh final : public Command {
                "move freely and OUT has no vt")
             ->check(CLI::IsMember({"keep", "drop"}))
             ->capture_default_str();
+        app->add_flag("--open-angles", wanted_.open_angles,
+                      "then open the smallest angles further, at the cost of the mean over all faces");
         app->add_flag("--fast", wanted_.fast, "one linear solve and the nearest points: a preview");
         app->add_option("--preserve", preserve_,
                         "the least-squares map of Gruber and Aulisa instead, which leaves the surface: with its "
@@ -111,10 +113,13 @@ class Remesh final : public Command {
         common_.check_files(inputs, {{"-o", output_}, {"--places", places_}});
         if (uniform_ && preserve_.empty())
             throw Error(Cause::bad_option, "--uniform belongs to --preserve", "give that, or leave it out");
-        if (!preserve_.empty() && (wanted_.fast || !places_.empty() || !sizing_.empty()))
+        if (!preserve_.empty() && (wanted_.fast || wanted_.open_angles || !places_.empty() || !sizing_.empty()))
             throw Error(Cause::bad_option,
-                        "--fast, --places and --sizing are about vertices that stay on the surface, which --preserve "
-                        "does not promise",
+                        "--fast, --open-angles, --places and --sizing are about vertices that stay on the surface, "
+                        "which --preserve does not promise",
+                        "leave one of them out");
+        if (wanted_.fast && wanted_.open_angles)
+            throw Error(Cause::bad_option, "--fast takes one linear solve, and --open-angles further steps",
                         "leave one of them out");
         wanted_.slide_border = border_ == "slide";
         wanted_.keep_seams = seams_ == "keep";

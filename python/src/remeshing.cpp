@@ -58,6 +58,7 @@ RemeshedPtr remeshed(const SurfacePtr& source, const py::object& reference, cons
         if (options.sizing->size() != mesh.vertex_count())
             throw Error(Cause::bad_option, "sizing is not one number for each vertex");
     }
+    keywords.take("open_angles", options.open_angles);
     keywords.take("fast", options.fast);
     keywords.progress(interruption, options.progress);
     keywords.finish();
@@ -203,14 +204,14 @@ void bind_remeshing(py::module_& m) {
         .def_property_readonly(
             "unresolved", [](const RemeshedObject& o) { return index_array(o.found().unresolved); },
             "Faces whose normals oppose the surface's at the end");
-    m.def(
-        "remesh", &remeshed, py::arg("surface"), py::arg("reference") = py::none(),
-        "Moves the vertices of a mesh along its own surface until its faces have the shapes of a reference as nearly "
-        "as they can; the connectivity stays.\n\nreference: #corners×2 (regular_shapes, valence_shapes, "
-        "shapes_from_angles; None: regular).\n\nOptions: power=4 (larger: the worst faces count more), "
-        "max_distance=0.003 (of the diagonal), even_size=0.03, feature_angle=None (radians), slide_border=True, "
-        "keep_seams=True, sizing=None (#V factors), fast=False, progress=None: called as progress(step, value), False "
-        "stops (Cancelled).\n\nRaises BadOption, BadMesh, NotSolved, Cancelled.");
+    m.def("remesh", &remeshed, py::arg("surface"), py::arg("reference") = py::none(),
+          "Moves the vertices of a mesh along its own surface until its faces have the shapes of a reference as nearly "
+          "as they can; the connectivity stays.\n\nreference: #corners×2 (regular_shapes, valence_shapes, "
+          "shapes_from_angles; None: regular).\n\nOptions: power=4 (larger: the worst faces count more), "
+          "max_distance=0.003 (of the diagonal), even_size=0.03, feature_angle=None (radians), slide_border=True, "
+          "keep_seams=True, sizing=None (#V factors), open_angles=False, fast=False, progress=None: called as "
+          "progress(step, value), False "
+          "stops (Cancelled).\n\nRaises BadOption, BadMesh, NotSolved, Cancelled.");
     m.def(
         "carried_texture",
         [](const Mesh& mesh, const Places& places) {

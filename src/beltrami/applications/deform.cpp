@@ -1,6 +1,7 @@
 #include <beltrami/applications/deform.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <utility>
@@ -14,6 +15,8 @@
 #include <beltrami/space/polygon_surface.h>
 #include <beltrami/space/tangential_map.h>
 #include <beltrami/space/uniform_map.h>
+#include <beltrami/space/unrolled_map.h>
+#include <beltrami/targets/parametric_target.h>
 #include <beltrami/unfold/fold_free.h>
 
 namespace beltrami {
@@ -46,40 +49,6 @@ Positions points_at(const Mesh& surface, const std::vector<MeshPoint>& places) {
 }
 
 }  // namespace
-
-const char* to_string(DeformedSurface surface) {
-    switch (surface) {
-        case DeformedSurface::automatic:
-            return "automatic";
-        case DeformedSurface::thin_plate:
-            return "thin-plate";
-        case DeformedSurface::rigid:
-            return "rigid";
-        case DeformedSurface::uniform:
-            return "uniform";
-        case DeformedSurface::given:
-            return "given";
-    }
-    return "";
-}
-
-const char* to_string(DeformGoal goal) {
-    switch (goal) {
-        case DeformGoal::dilatation:
-            return "K";
-        case DeformGoal::largest:
-            return "max";
-        case DeformGoal::spread:
-            return "spread";
-    }
-    return "";
-}
-
-void DeformOptions::validate() const {
-    if (!(last_power >= 2 && last_power <= 64)) throw Error(Cause::bad_option, "the power is not between 2 and 64");
-    if (steps_of_power < 0) throw Error(Cause::bad_option, "the number of steps is negative");
-    if (!(tolerance >= 0)) throw Error(Cause::bad_option, "the tolerance is negative");
-}
 
 struct DeformSolver::Parts {
     const Surface& source;
@@ -187,6 +156,9 @@ struct DeformSolver::Parts {
         if (target.mesh()) result.places = beltrami::places_of(points);
         result.distortion = distortion(elements.operators, result.positions, normals_of(points));
         result.of_surface = distortion(elements.operators, begin.positions, normals_at(target, begin));
+        const std::vector<int> free = flipped_freely(result);
+        std::set_difference(result.distortion.flipped.begin(), result.distortion.flipped.end(), free.begin(),
+                            free.end(), std::back_inserter(result.forced));
         result.folds = fold_edges(source, result.positions);
         result.area_ratio = surface_area(with_positions(source.mesh, result.positions)) / surface_area(source.mesh);
         return result;
@@ -253,11 +225,49 @@ struct DeformSolver::Parts {
         }
     }
 
+    /// A target that can be unrolled, where the map begins on it, and what is held.
+    struct UnrolledTarget {
+        const ParametricTarget* surface;
+        UnrolledPlaces places;
+        std::vector<char> fixed;
+    };
+    std::optional<UnrolledTarget> unrolled_target(const Target& target, const Mesh& begin,
+                                                  const TargetConstraints& held) const {
+        const auto* const surface = dynamic_cast<const ParametricTarget*>(&target);
+        if (!surface) return {};
+        std::optional<UnrolledPlaces> places =
+            unrolled_places(*surface, source.mesh.faces, nearest_points(target, begin.positions));
+        if (!places) return {};
+        std::vector<char> fixed(static_cast<std::size_t>(begin.vertex_count()), 0);
+        for (const int v : held.fixed) fixed[v] = 1;
+        return UnrolledTarget{surface, std::move(*places), std::move(fixed)};
+    }
+
+    /// The QC iteration on a target that can be unrolled.
+    std::optional<Deformation> by_unrolled_map(const Target& target, const Mesh& begin,
+                                               const TargetConstraints& held) const {
+        if (options.goal != DeformGoal::spread) return {};
+        const std::optional<UnrolledTarget> unrolled = unrolled_target(target, begin, held);
+        if (!unrolled) return {};
+        UniformOptions uniform;
+        uniform.max_iterations = kUniformSteps;
+        uniform.progress = options.progress;
+        const UnrolledMap map = uniform_unrolled_map(source.mesh, elements, unrolled->places, unrolled->fixed, uniform);
+        Deformation result = measured(target, rolled_up(*unrolled->surface, map.vertices), begin);
+        if (!flipped_freely(result).empty()) return {};
+        result.goal = options.goal;
+        result.steps = map.solves;
+        result.settled = map.converged;
+        result.factorizations = map.solves + surfaces.factorization_count();
+        return result;
+    }
+
     /// By way of the plane: the extremal map, or the QC iteration. Nothing where there is none that does not fold; why
     /// is among the warnings.
     std::optional<Deformation> by_held_map(const Target& target, const Mesh& begin, const TargetConstraints& held,
                                            Warnings& warnings) {
         const char* const what = options.goal == DeformGoal::dilatation ? "the extremal map" : "the QC iteration";
+        if (std::optional<Deformation> unrolled = by_unrolled_map(target, begin, held)) return unrolled;
         std::string reason = maps.refusal();
         if (reason.empty()) try {
                 HeldMap map = options.goal == DeformGoal::dilatation

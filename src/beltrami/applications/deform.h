@@ -58,6 +58,9 @@ struct Deformation {
     DeformGoal goal = DeformGoal::largest;  ///< that was reached
     std::optional<ExtremalMap> extremal;    ///< of the goal dilatation: the map in the plane, its k and its bounds
     Distortion distortion;                  ///< of the map
+    /// Of its flipped faces those which no map onto the surface opens, as the handles' places alone turn a triangle
+    /// over, or a quad's at a corner.
+    std::vector<int> forced;
     Distortion of_surface;                  ///< of the surface's own vertices, with which it began
     double area_ratio = 1;                  ///< of the surface to the source
     std::vector<std::array<int, 2>> folds;  ///< edges at which the result folds and the source does not

@@ -4,6 +4,7 @@
 #include <limits>
 #include <numeric>
 
+#include <beltrami/locate/nearest_on_triangle.h>
 #include <beltrami/mesh/quad_split.h>
 
 namespace beltrami {
@@ -15,34 +16,6 @@ constexpr int kLeaf = 4;
 
 double squared_distance(const std::array<Eigen::Array3d, 2>& box, const Eigen::Vector3d& point) {
     return (box[0] - point.array()).max(point.array() - box[1]).max(0.0).square().sum();
-}
-
-/// Weights of the corners of the triangle's point nearest to p, by the regions of its corners, edges and inside
-/// (Ericson, Real-Time Collision Detection, 5.1.5).
-std::array<double, 3> nearest_weights(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                                      const Eigen::Vector3d& c) {
-    const Eigen::Vector3d ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
-    const double d1 = ab.dot(ap), d2 = ac.dot(ap);
-    if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
-    const double d3 = ab.dot(bp), d4 = ac.dot(bp);
-    if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
-    const double d5 = ab.dot(cp), d6 = ac.dot(cp);
-    if (d6 >= 0 && d5 <= d6) return {0, 0, 1};
-    const double of_c = d1 * d4 - d3 * d2, of_b = d5 * d2 - d1 * d6, of_a = d3 * d6 - d5 * d4;
-    if (of_c <= 0 && d1 >= 0 && d3 <= 0) {
-        const double t = d1 / (d1 - d3);
-        return {1 - t, t, 0};
-    }
-    if (of_b <= 0 && d2 >= 0 && d6 <= 0) {
-        const double t = d2 / (d2 - d6);
-        return {1 - t, 0, t};
-    }
-    if (of_a <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
-        const double t = (d4 - d3) / ((d4 - d3) + (d5 - d6));
-        return {0, 1 - t, t};
-    }
-    const double sum = of_a + of_b + of_c, v = of_b / sum, w = of_c / sum;
-    return {1 - v - w, v, w};
 }
 
 }  // namespace
@@ -96,12 +69,18 @@ SurfaceLocator::Place SurfaceLocator::on_triangle(int triangle, const Eigen::Vec
 SurfaceLocator::Place SurfaceLocator::nearest(const Eigen::Vector3d& point) const {
     Place best;
     best.distance = std::numeric_limits<double>::infinity();
-    int stack[128], depth = 0;
-    stack[depth++] = 0;
+    // The distance of a node's box is known where it is put aside.
+    struct Aside {
+        int node;
+        double square;
+    };
+    Aside stack[128];
+    int depth = 0;
+    stack[depth++] = {0, 0};
     while (depth) {
-        const int at = stack[--depth];
+        const auto [at, square] = stack[--depth];
+        if (square > best.distance * best.distance) continue;
         const Node& node = nodes_[at];
-        if (squared_distance(node.box, point) > best.distance * best.distance) continue;
         if (node.right == 0) {
             for (int i = node.first; i < node.last; ++i) {
                 const Place place = on_triangle(order_[i], point);
@@ -112,8 +91,9 @@ SurfaceLocator::Place SurfaceLocator::nearest(const Eigen::Vector3d& point) cons
             continue;
         }
         // The nearer child first: it narrows the search most.
-        const int left = at + 1, right = node.right;
-        const bool left_first = squared_distance(nodes_[left].box, point) <= squared_distance(nodes_[right].box, point);
+        const Aside left{at + 1, squared_distance(nodes_[at + 1].box, point)},
+            right{node.right, squared_distance(nodes_[node.right].box, point)};
+        const bool left_first = left.square <= right.square;
         stack[depth++] = left_first ? right : left;
         stack[depth++] = left_first ? left : right;
     }

@@ -28,16 +28,20 @@ Eigen::Vector3d middle_of(const Mesh& mesh, int face) {
     return sum / mesh.faces.degree(face);
 }
 
-/// Vertices in faces, middles of edges (once for each face) and of faces.
+/// Vertices in faces, middles of edges (once for each triangle) and of triangles.
 std::vector<Eigen::Vector3d> sampled(const Mesh& mesh) {
+    Positions positions(mesh.vertex_count(), 3);
+    for (int v = 0; v < mesh.vertex_count(); ++v) positions.row(v) = mesh.point(v);
+    std::vector<int> faces;
+    const std::vector<std::array<int, 3>> triangles = as_triangles(mesh.faces, positions, faces);
     std::vector<Eigen::Vector3d> points;
+    points.reserve(4 * triangles.size() + static_cast<std::size_t>(mesh.vertex_count()));
     std::vector<char> seen(static_cast<std::size_t>(mesh.vertex_count()), 0);
-    for (int f = 0; f < mesh.face_count(); ++f) {
-        const auto v = mesh.faces[f];
-        points.push_back(middle_of(mesh, f));
-        for (std::size_t j = 0; j < v.size(); ++j) {
-            points.push_back(0.5 * (mesh.point(v[j]) + mesh.point(v[(j + 1) % v.size()])));
-            if (!seen[v[j]]) points.push_back(mesh.point(v[j]));
+    for (const auto& v : triangles) {
+        points.emplace_back((mesh.point(v[0]) + mesh.point(v[1]) + mesh.point(v[2])) / 3);
+        for (std::size_t j = 0; j < 3; ++j) {
+            points.emplace_back(0.5 * (mesh.point(v[j]) + mesh.point(v[(j + 1) % 3])));
+            if (!seen[v[j]]) points.emplace_back(mesh.point(v[j]));
             seen[v[j]] = 1;
         }
     }

@@ -27,6 +27,13 @@ constexpr int kAttempts = 4, kFrozenRings = 1;  // of vertices that stay from th
 constexpr double kGain = 0.003;                 // of the mean of ψ^{p/2}: what two steps have to bring for two more
 constexpr double kTolerance = 1e-3, kRoundTolerance = 1e-4;
 
+constexpr double kDistanceFactor = 1.4;  // up to which the distance allowed is kept
+// Small angles are opened towards so much more than the one below which 1 % are, some steps at a time, until so many
+// times in a row it gained hardly anything.
+constexpr double kOpenedBy = 3, kOpeningGain = 0.05;  // degrees
+constexpr int kOpeningRounds = 30, kOpeningSteps = 3, kFutileOpenings = 4;
+constexpr double kDegree = std::numbers::pi / 180;
+
 double diagonal_of(const Mesh& mesh) {
     return (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).norm();
 }
@@ -105,7 +112,7 @@ bool has_needles(const Eigen::VectorXcd& mu) {
 }
 
 void warn_of_distance(const RemeshOptions& options, RemeshedSurface& result) {
-    if (result.distance > 1.4 * options.max_distance)
+    if (result.distance > kDistanceFactor * options.max_distance)
         result.warnings.push_back(
             {WarningKind::iteration_limit, "the image is up to " + std::to_string(result.distance) +
                                                " of the diagonal away from the surface, more than was allowed"});
@@ -141,10 +148,7 @@ class Rounds {
         double least = std::numeric_limits<double>::infinity(), last = least;
         for (; result.rounds < kRounds; ++result.rounds) {
             const double mean = mean_power(map.coefficients());
-            bad = around_newly_opposed(map.positions());
-            map.draw_back(bad);
-            const std::vector<int> strayed = map.hold_within(allowed_).vertices;
-            bad.insert(bad.end(), strayed.begin(), strayed.end());
+            bad = draw_back(map);
             if (bad.empty() && mean < least) {
                 least = mean;
                 best = map.map();
@@ -159,7 +163,44 @@ class Rounds {
         return {};
     }
 
+    /// Opens small angles of a map that keeps both, as long as the smallest or the one below which 1 % are grows and
+    /// neither shrinks.
+    void open_angles(TangentialMap& map) const {
+        TargetMap best = map.map();
+        AngleStatistics most = angles(map);
+        for (int round = 0, futile = 0; round < kOpeningRounds && futile < kFutileOpenings; ++round) {
+            map.open_angles((most.one_percent + kOpenedBy) * kDegree);
+            map.relax(options_.power, kOpeningSteps, kRoundTolerance);
+            const bool kept = draw_back(map).empty();
+            const AngleStatistics now = angles(map);
+            const bool gains = now.one_percent >= most.one_percent && now.smallest >= most.smallest &&
+                               now.one_percent + now.smallest >= most.one_percent + most.smallest + kOpeningGain;
+            if (!gains) ++futile;
+            if (!gains || !kept) continue;
+            most = now;
+            best = map.map();
+            futile = 0;
+        }
+        map.open_angles(0);
+        map.return_to(std::move(best));
+    }
+
   private:
+    AngleStatistics angles(const TangentialMap& map) const {
+        Mesh image = surface_.mesh;
+        image.positions = map.positions();
+        return angle_statistics(image);
+    }
+
+    /// @return vertices that are too far away, or in faces that newly oppose the surface
+    std::vector<int> draw_back(TangentialMap& map) const {
+        std::vector<int> bad = around_newly_opposed(map.positions());
+        map.draw_back(bad);
+        const std::vector<int> strayed = map.hold_within(allowed_);
+        bad.insert(bad.end(), strayed.begin(), strayed.end());
+        return bad;
+    }
+
     double mean_power(const Eigen::VectorXcd& mu) const {
         double sum = 0;
         for (int s = 0; s < reference_.sample_count(); ++s) {
@@ -270,6 +311,7 @@ RemeshedSurface remesh(const Surface& surface, const Positions& reference, const
         if (options.power > 2) map.relax(options.power, kPowerSteps, kTolerance);
         result.rounds = 0;
         const std::vector<int> bad = rounds.run(map, result);
+        if (bad.empty() && options.open_angles) rounds.open_angles(map);
         result.positions = map.positions();
         result.places = places_of(map.points());
         result.steps += map.steps();
@@ -278,6 +320,7 @@ RemeshedSurface remesh(const Surface& surface, const Positions& reference, const
         freeze_around(surface, bad, frozen);
     }
     conclude(surface, target, result);
+    if (result.distance > kDistanceFactor * options.max_distance) result.settled = false;
     warn_of_distance(options, result);
     warn_of_tips(result);
     return result;

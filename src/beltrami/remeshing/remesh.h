@@ -25,6 +25,9 @@ struct RemeshOptions {
     /// #V: by what edges at the vertices ought to be longer (where above the mean) or shorter than they are; empty: as
     /// they are. Takes even_size to be large: 1.
     std::optional<Eigen::VectorXd> sizing;
+    /// Then the smallest angles are opened further as long as the one below which 1 % are grows: the mean deviation
+    /// from regular faces, and the sizes of |μ|, may become worse.
+    bool open_angles = false;
     bool fast = false;  ///< one linear solve and the nearest points instead: a preview
     Progress progress;
 
@@ -37,7 +40,7 @@ struct RemeshedSurface {
     std::vector<MeshPoint> places;  ///< #V: where that is
     double distance = 0;            ///< the largest between image and surface, of the diagonal
     int rounds = 0, steps = 0, factorizations = 0;
-    bool settled = false;         ///< the distance was kept before the rounds were over
+    bool settled = false;         ///< the distance was kept, up to its factor, before the rounds were over
     std::vector<int> unresolved;  ///< faces whose normals oppose the surface's at the end
     std::vector<int> opposed_before;
     Warnings warnings;

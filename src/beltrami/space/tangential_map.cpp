@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -29,7 +30,8 @@ constexpr double kCusp = 0.2;       // cosine of a face's normal and the target'
 constexpr double kFirstStiffness = 0.05, kStiffnessFactor = 4;
 constexpr double kBlocking = 0.2, kLooked = 0.26;  // step lengths: held if it stays shorter, looked for from here on
 constexpr double kNearlyFolded = 0.999;            // |μ| of a sample that blocks
-constexpr double kAllRound = 0.3;                  // of a blocking vertex's quadric, in every direction
+constexpr double kOpening = 30 * (180 / std::numbers::pi) * (180 / std::numbers::pi);  // of missing angles, radians²
+constexpr double kAllRound = 0.3;  // of a blocking vertex's quadric, in every direction
 
 using Vector3 = Eigen::Vector3d;
 
@@ -116,10 +118,10 @@ void TangentialMap::set_quadrics(const Mesh& start) {
     std::vector<int> faces;
     Positions points(start.vertex_count(), 3);
     for (int v = 0; v < start.vertex_count(); ++v) points.row(v) = start.point(v);
-    triangles_ = as_triangles(start.faces, points, faces);
+    const std::vector<std::array<int, 3>> triangles = as_triangles(start.faces, points, faces);
     quadric_.assign(static_cast<std::size_t>(start.vertex_count()), Eigen::Matrix3d::Zero());
     Eigen::VectorXd angles = Eigen::VectorXd::Zero(start.vertex_count());
-    for (const auto& triangle : triangles_)
+    for (const auto& triangle : triangles)
         for (int j = 0; j < 3; ++j) {
             const Vector3 u = start.point(triangle[(j + 1) % 3]) - start.point(triangle[j]),
                           v = start.point(triangle[(j + 2) % 3]) - start.point(triangle[j]), normal = u.cross(v);
@@ -192,7 +194,46 @@ double TangentialMap::value(const BarrierEnergy& energy, const TargetMap& map) c
         }
         return part;
     });
-    return sum + drawn_back(points) / energy.unit();
+    return sum + drawn_back(points) / energy.unit() + (least_angle_ > 0 ? lacking_angles(points) : 0);
+}
+
+/// Of how many corners of a sample the angles are those of its face: of all of a triangle, of one of the corner
+/// triangles of a polygon.
+int TangentialMap::face_corners(int sample) const {
+    return start_.mesh.faces.degree(operators_.faces[sample]) == 3 ? 3 : 1;
+}
+
+double TangentialMap::lacking_angles(const Positions& points) const {
+    return parallel_sum(operators_.sample_count(), 0.0, [&](int first, int last) {
+        double part = 0;
+        for (int s = first; s < last; ++s)
+            for (int j = 0; j < face_corners(s); ++j) {
+                const double lack = least_angle_ - corner_angle(operators_.stencil(s), j, points).angle;
+                if (lack > 0) part += kOpening * weights_[s] * lack * lack;
+            }
+        return part;
+    });
+}
+
+void TangentialMap::assemble_angles(const std::vector<TargetMotion::Directions>& ways) {
+    const Positions points = positions();
+    for (int s = 0; s < operators_.sample_count(); ++s) {
+        const auto stencil = operators_.stencil(s);
+        for (int corner = 0; corner < face_corners(s); ++corner) {
+            const CornerAngle at = corner_angle(stencil, corner, points);
+            const double lack = least_angle_ - at.angle, weight = kOpening * weights_[s];
+            if (!(lack > 0)) continue;
+            std::array<double, 6> l{};
+            std::array<double, 21> hessian{};
+            for (std::size_t i = 0, entry = 0; i < 6; ++i) {
+                l[i] = at.by[i / 2].dot(ways[stencil[i / 2]][i % 2]);
+                if (const int node = place_[stencil[i / 2]]; node >= 0)
+                    gradient_[2 * node + static_cast<int>(i % 2)] -= weight * lack * l[i];
+                for (std::size_t j = 0; j <= i; ++j) hessian[entry++] = weight * l[i] * l[j];
+            }
+            system_.add(s, hessian);
+        }
+    }
 }
 
 void TangentialMap::assemble_samples(const BarrierEnergy& energy, const std::vector<TargetMotion::Directions>& ways) {
@@ -250,6 +291,7 @@ void TangentialMap::assemble(const BarrierEnergy& energy, const std::vector<Targ
     system_.clear();
     gradient_.setZero();
     assemble_samples(energy, ways);
+    if (least_angle_ > 0) assemble_angles(ways);
     assemble_vertices(energy.unit(), ways);
 }
 
@@ -357,50 +399,10 @@ int TangentialMap::relax(double power, int max_steps, double tolerance) {
     return max_steps;
 }
 
-TangentialMap::Strayed TangentialMap::hold_within(double distance) {
-    const Positions points = positions();
-    const SurfaceLocator image(points, triangles_);
-    Eigen::VectorXd away = Eigen::VectorXd::Zero(points.rows());
-    const int vertices = static_cast<int>(points.rows());
-    parallel_for(
-        0, vertices,
-        [&](int first, int last) {
-            for (int v = first; v < last; ++v) away[v] = image.nearest(start_.mesh.point(v)).distance;
-        },
-        kDefaultGrain / 16);
-    struct OfTriangle {
-        std::array<double, 3> middles;  // of the edges at the start, to the image
-        double back;                    // the farthest middle of the image, to the target
-    };
-    std::vector<OfTriangle> of_triangles(triangles_.size());
-    parallel_for(
-        0, static_cast<int>(triangles_.size()),
-        [&](int first, int last) {
-            for (int t = first; t < last; ++t) {
-                const auto& v = triangles_[t];
-                for (int j = 0; j < 3; ++j)
-                    of_triangles[t].middles[j] =
-                        image.nearest(0.5 * (start_.mesh.point(v[j]) + start_.mesh.point(v[(j + 1) % 3]))).distance;
-                const auto from_target = [&](const Vector3& p) { return (target_.nearest(p).position - p).norm(); };
-                double& back = of_triangles[t].back;
-                back = from_target((points.row(v[0]) + points.row(v[1]) + points.row(v[2])).transpose() / 3);
-                for (int j = 0; j < 3; ++j)
-                    back =
-                        std::max(back, from_target(0.5 * (points.row(v[j]) + points.row(v[(j + 1) % 3])).transpose()));
-            }
-        },
-        kDefaultGrain / 16);
-    for (std::size_t t = 0; t < triangles_.size(); ++t)
-        for (int j = 0; j < 3; ++j) {
-            double& at = away[triangles_[t][j]];
-            at = std::max({at, of_triangles[t].middles[j], of_triangles[t].middles[(j + 2) % 3], of_triangles[t].back});
-        }
-    Strayed strayed{{}, away.maxCoeff()};
-    for (int v = 0; v < vertices; ++v) {
-        if (!(away[v] > distance)) continue;
-        strayed.vertices.push_back(v);
-        stiffness_[v] = std::max(kStiffnessFactor * stiffness_[v], kFirstStiffness);
-    }
+std::vector<int> TangentialMap::hold_within(double distance) {
+    if (!gap_) gap_ = std::make_unique<SurfaceGap>(start_.mesh, target_);
+    std::vector<int> strayed = gap_->strayed(positions(), distance);
+    for (const int v : strayed) stiffness_[v] = std::max(kStiffnessFactor * stiffness_[v], kFirstStiffness);
     return strayed;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -13,6 +14,8 @@
 #include <beltrami/linear/element_system.h>
 #include <beltrami/solve/target_energy.h>
 #include <beltrami/solve/target_motion.h>
+#include <beltrami/space/corner_angles.h>
+#include <beltrami/space/surface_gap.h>
 
 namespace beltrami {
 
@@ -47,18 +50,18 @@ class TangentialMap {
     void set_wanted(Eigen::VectorXcd coefficient) { wanted_ = std::move(coefficient); }
     /// How strongly steps are damped at first: 1; for needles 1e5.
     void set_damping(double damping) { damping_ = damping; }
+    /// Adds to F what opens small angles of the faces: the mean over them of the square of what they lack, in units of
+    /// a degree.
+    /// @param least radians, of which angles ought to have at least so many; 0: none
+    void open_angles(double least) { least_angle_ = least; }
     /// What J₀ is multiplied by (#S), for faces that ought to grow or shrink.
     void scale_areas(const Eigen::VectorXd& factors);
     /// Told of every step, with the mean of ψ^{p/2}.
     void set_progress(Progress progress) { progress_ = std::move(progress); }
 
-    struct Strayed {
-        std::vector<int> vertices;  ///< around which start and image are farther apart than allowed
-        double distance = 0;        ///< the largest, both ways, at vertices, middles of edges and of faces
-    };
-    /// Raises κ where the start (its vertices and the middles of its edges) is farther from the image, or the image
-    /// (its middles of edges and triangles) from the target, than a distance.
-    Strayed hold_within(double distance);
+    /// Raises κ where start and image are farther apart than a distance (surface_gap.h).
+    /// @return these vertices, ascending
+    std::vector<int> hold_within(double distance);
     /// Raises κ of vertices, and draws them in every direction, not only off their faces' planes.
     void draw_back(std::span<const int> vertices);
 
@@ -84,6 +87,9 @@ class TangentialMap {
     void set_quadrics(const Mesh& start);
     void assemble(const BarrierEnergy& energy, const std::vector<TargetMotion::Directions>& ways);
     void assemble_vertices(double unit, const std::vector<TargetMotion::Directions>& ways);
+    int face_corners(int sample) const;
+    double lacking_angles(const Positions& points) const;
+    void assemble_angles(const std::vector<TargetMotion::Directions>& ways);
     void assemble_samples(const BarrierEnergy& energy, const std::vector<TargetMotion::Directions>& ways);
     void equilibrate(std::vector<TargetMotion::Directions>& ways) const;
     Positions direction(const BarrierEnergy& energy);
@@ -99,7 +105,7 @@ class TangentialMap {
     const Target& target_;
     TargetMotion motion_;
     TargetMap map_;
-    double even_size_, damping_ = 1;
+    double even_size_, damping_ = 1, least_angle_ = 0;
     Progress progress_;
     std::vector<double> weights_;  // #S, of sum 1
     Eigen::VectorXcd wanted_;      // #S
@@ -109,8 +115,8 @@ class TangentialMap {
     Eigen::VectorXd stiffness_;    // #V κ
     Eigen::VectorXd size_;         // #V h
     std::vector<Eigen::Matrix3d> quadric_;
-    std::vector<std::array<int, 3>> triangles_;
-    std::vector<int> place_;  // #V among those that move, −1 elsewhere
+    std::unique_ptr<SurfaceGap> gap_;  // once it is asked for
+    std::vector<int> place_;           // #V among those that move, −1 elsewhere
     ElementSystem system_;
     Eigen::VectorXd gradient_;
     int steps_ = 0;

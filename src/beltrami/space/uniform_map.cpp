@@ -2,10 +2,12 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include <beltrami/base/error.h>
 #include <beltrami/mesh/edge_table.h>
 #include <beltrami/operators/distortion.h>
+#include <beltrami/space/uniform_iteration.h>
 
 namespace beltrami {
 
@@ -24,17 +26,7 @@ Eigen::VectorXcd face_coefficients(const Operators& operators, const Mesh& sourc
     Mesh image;
     image.positions = map;
     image.faces = source.faces;
-    const MapDerivatives at = derivatives(operators, map, vertex_normals(image));
-    Eigen::VectorXcd mu = beltrami_coefficient(at);
-    for (Complex& value : mu) {  // ∂f = 0
-        if (!std::isfinite(std::abs(value))) value = kMostMu;
-    }
-    mu = face_means(operators, mu);
-    for (Complex& value : mu) {
-        const double size = std::abs(value);
-        if (size > kMostMu) value *= kMostMu / size;
-    }
-    return mu;
+    return cut_off_means(operators, beltrami_coefficient(derivatives(operators, map, vertex_normals(image))));
 }
 
 }  // namespace
@@ -74,32 +66,59 @@ Eigen::VectorXcd smoothed_over_edges(const CornerElements& elements, const Mesh&
     return mean * phase;
 }
 
-UniformMap uniform_map(LeastSquaresMap& problem, const Mesh& source, const UniformOptions& options) {
-    options.validate();
-    const CornerElements& elements = problem.elements();
+Eigen::VectorXcd cut_off_means(const Operators& operators, Eigen::VectorXcd mu) {
+    for (Complex& value : mu) {  // ∂f = 0
+        if (!std::isfinite(std::abs(value))) value = kMostMu;
+    }
+    mu = face_means(operators, mu);
+    for (Complex& value : mu) {
+        const double size = std::abs(value);
+        if (size > kMostMu) value *= kMostMu / size;
+    }
+    return mu;
+}
+
+UniformRun iterate_to_uniform(const CornerElements& elements, const Mesh& source, const UniformSteps& steps,
+                              const UniformOptions& options) {
     const Operators& operators = elements.operators;
-    UniformMap result;
-    result.wanted = Eigen::VectorXcd::Zero(source.face_count());
-    result.map = result.first = problem.solve(Eigen::VectorXcd::Zero(operators.sample_count()));
-    result.solves = 1;
+    UniformRun run;
+    run.wanted = Eigen::VectorXcd::Zero(source.face_count());
     for (int iteration = 1; iteration <= options.max_iterations; ++iteration) {
-        const Eigen::VectorXcd mu = face_coefficients(operators, source, result.map);
+        const Eigen::VectorXcd mu = steps.coefficients();
         Eigen::VectorXcd next = smoothed_over_edges(elements, source, mu, options.smoothing_passes);
         if (options.progress && !options.progress(iteration, mu.cwiseAbs().mean()))
             throw Error(Cause::cancelled, "cancelled after iteration " + std::to_string(iteration));
         if (options.line_search)
-            next = result.wanted + problem.best_step(face_values_at_samples(operators, result.wanted),
-                                                     face_values_at_samples(operators, next), result.map) *
-                                       (next - result.wanted);
-        const double change = (next - result.wanted).cwiseAbs().mean();
-        result.wanted = std::move(next);
+            next = run.wanted + steps.best_step(face_values_at_samples(operators, run.wanted),
+                                                face_values_at_samples(operators, next)) *
+                                    (next - run.wanted);
+        const double change = (next - run.wanted).cwiseAbs().mean();
+        run.wanted = std::move(next);
         if (iteration > 1 && change < options.tolerance) {
-            result.converged = true;
+            run.converged = true;
             break;
         }
-        result.map = problem.solve(face_values_at_samples(operators, result.wanted));
-        ++result.solves;
+        steps.solve(face_values_at_samples(operators, run.wanted));
+        ++run.solves;
     }
+    return run;
+}
+
+UniformMap uniform_map(LeastSquaresMap& problem, const Mesh& source, const UniformOptions& options) {
+    options.validate();
+    const CornerElements& elements = problem.elements();
+    UniformMap result;
+    result.map = result.first = problem.solve(Eigen::VectorXcd::Zero(elements.operators.sample_count()));
+    UniformRun run = iterate_to_uniform(elements, source,
+                                        {[&](const Eigen::VectorXcd& mu) { result.map = problem.solve(mu); },
+                                         [&] { return face_coefficients(elements.operators, source, result.map); },
+                                         [&](const Eigen::VectorXcd& from, const Eigen::VectorXcd& to) {
+                                             return problem.best_step(from, to, result.map);
+                                         }},
+                                        options);
+    result.wanted = std::move(run.wanted);
+    result.solves = 1 + run.solves;
+    result.converged = run.converged;
     return result;
 }
 

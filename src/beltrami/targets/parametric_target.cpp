@@ -42,8 +42,9 @@ ParametricTarget::Jet turned(double u, const Profile& p) {
 
 }  // namespace
 
-ParametricTarget::ParametricTarget(Function function, Range u, Range v, SlideCurves boundary)
-    : function_(std::move(function)), u_(u), v_(v), boundary_(std::move(boundary)) {
+ParametricTarget::ParametricTarget(Function function, Range u, Range v, SlideCurves boundary,
+                                   std::optional<Eigen::Vector2d> unit)
+    : function_(std::move(function)), u_(u), v_(v), boundary_(std::move(boundary)), unit_(unit) {
     for (int i = 0; i < kGrid; ++i)
         for (int j = 0; j < kGrid; ++j)
             grid_.push_back(
@@ -96,6 +97,12 @@ Target::Point ParametricTarget::retract(const Eigen::Vector3d& moved, const Poin
     return best;
 }
 
+std::optional<ParametricTarget::Unrolled> ParametricTarget::unrolled() const {
+    if (!unit_) return {};
+    const auto turn = [](const Range& range) { return range.periodic ? range.last - range.first : 0.0; };
+    return Unrolled{*unit_, unit_->cwiseProduct(Eigen::Vector2d(turn(u_), turn(v_)))};
+}
+
 ParametricTarget torus_target(double major, double minor) {
     require_positive(minor > 0 && major > minor, "a torus needs radii R > r > 0");
     return ParametricTarget(
@@ -134,7 +141,8 @@ ParametricTarget cylinder_target(double radius, double height) {
             return turned(u, {radius, 0, 0, v, 0, 1});
         },
         {0, 1, true}, {0, height, false},
-        {std::make_shared<LevelCircle>(radius, 0), std::make_shared<LevelCircle>(radius, height)});
+        {std::make_shared<LevelCircle>(radius, 0), std::make_shared<LevelCircle>(radius, height)},
+        Eigen::Vector2d(kTurn * radius, 1));
 }
 
 }  // namespace beltrami

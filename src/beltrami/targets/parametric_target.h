@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include <beltrami/targets/target.h>
 
@@ -20,7 +21,10 @@ class ParametricTarget final : public Target {
     };
 
     /// @param boundary the curves that bound it, where a range is not periodic
-    ParametricTarget(Function function, Range u, Range v, SlideCurves boundary = {});
+    /// @param unit     of a surface that is the plane rolled up: the lengths of du and dv, the same everywhere and at
+    ///                 right angles
+    ParametricTarget(Function function, Range u, Range v, SlideCurves boundary = {},
+                     std::optional<Eigen::Vector2d> unit = {});
 
     Point at(double u, double v) const;
     /// From the nearest of a grid of places on.
@@ -28,10 +32,19 @@ class ParametricTarget final : public Target {
     Point retract(const Eigen::Vector3d& moved, const Point& from) const override;
     SlideCurves boundary() const override { return boundary_; }
 
+    /// A surface unrolled into the plane.
+    struct Unrolled {
+        Eigen::Vector2d unit;   ///< lengths that the parameters' units have
+        Eigen::Vector2d turns;  ///< whole turns of the parameters, as lengths; 0 where one is not periodic
+    };
+    /// Nothing unless the surface is the plane rolled up, as a cylinder is.
+    std::optional<Unrolled> unrolled() const;
+
   private:
     Function function_;
     Range u_, v_;
     SlideCurves boundary_;
+    std::optional<Eigen::Vector2d> unit_;
     std::vector<Point> grid_;
 };
 

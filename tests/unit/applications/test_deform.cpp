@@ -204,7 +204,7 @@ TEST(Deform, TheExtremalMapOntoACylinderHasItsBracket) {
         DeformSolver(surface, cylinder.handles.vertices, options).solve_onto(target, cylinder.handles.places);
     EXPECT_EQ(even.goal, DeformGoal::spread);
     EXPECT_TRUE(even.distortion.flipped.empty());
-    EXPECT_LT(even.distortion.standard_deviation, largest.distortion.standard_deviation);
+    EXPECT_LT(even.distortion.standard_deviation, 0.024);
 }
 
 // In the plane: an affine map has one μ, which is extremal for its own boundary values.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <beltrami/generate/double_torus.h>
 #include <beltrami/generate/sphere.h>
 #include <beltrami/io/read_mesh.h>
 #include <beltrami/operators/distortion.h>
@@ -215,6 +216,37 @@ TEST(Remesh, SizesFollow) {
         if (z < -0.6) below += face_vector_area(image, f).norm(), ++count_below;
     }
     EXPECT_GT((above / count_above) / (below / count_below), 1.5);
+}
+
+TEST(Remesh, SmallAnglesAreOpened) {
+    for (const bool smooth : {true, false}) {
+        const Mesh mesh = smooth ? double_torus(0.16) : jittered_box(7, 0.3);
+        const Surface surface(mesh);
+        RemeshOptions options;
+        options.feature_angle = 40 * kPi / 180;
+        const RemeshedSurface closed = remesh(surface, regular_shapes(mesh.faces), options);
+        options.open_angles = true;
+        const RemeshedSurface opened = remesh(surface, regular_shapes(mesh.faces), options);
+        const AngleStatistics before = angles_of(mesh, closed.positions), after = angles_of(mesh, opened.positions);
+        EXPECT_GE(after.smallest, before.smallest);
+        EXPECT_GE(after.one_percent, before.one_percent);
+        if (smooth) {
+            EXPECT_GT(after.smallest, before.smallest + 2);
+            EXPECT_GT(after.one_percent, before.one_percent + 1);
+        }
+        EXPECT_TRUE(opened.settled);
+        EXPECT_TRUE(opened.unresolved.empty());
+        EXPECT_LE(opened.distance, 1.4 * options.max_distance);
+    }
+}
+
+TEST(Remesh, WhatIsTooFarAwayIsNotCalledSettled) {
+    const Mesh mesh = icosahedral_sphere(2);
+    const Surface surface(mesh);
+    RemeshOptions options;
+    options.max_distance = 1e-12;
+    const RemeshedSurface result = remesh(surface, regular_shapes(mesh.faces), options);
+    EXPECT_EQ(result.settled, result.distance <= 1.4 * options.max_distance);
 }
 
 TEST(Remesh, RefusesImpossibleOptions) {
