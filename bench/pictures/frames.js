@@ -1,10 +1,11 @@
-// What pages cost a browser: frames.js PAGE.html …, one line each. Milliseconds until everything is drawn, the longest
-// tasks until then (a task of more than 50 ms is one that freezes the page), and the median time between frames while the
-// source's figure is turned. Chromium draws in software.
+// What pages cost a browser: frames.js PAGE.html …, one line each. Milliseconds until everything is drawn; the longest task
+// of the page itself until then by the clock (one of more than 50 ms freezes it), by the processor, and of it script; and
+// the median time between pictures while the source's figure is turned. Chromium draws in software.
 
 import { chromium } from "@playwright/test";
 import { resolve } from "node:path";
 import { pathToFileURL } from "node:url";
+import { longestTasks } from "./tasks.js";
 
 const FRAMES = 70;
 const browser = await chromium.launch({ executablePath: process.env.BELTRAMI_CHROMIUM ?? "/usr/bin/chromium",
@@ -13,22 +14,19 @@ const browser = await chromium.launch({ executablePath: process.env.BELTRAMI_CHR
 /// Of a page as it was before, too: it marks the end in the same way.
 async function measure(path) {
     const page = await browser.newPage({ viewport: { width: 1300, height: 1000 } });
-    await page.addInitScript(() => {
-        window.longTasks = [];
-        new PerformanceObserver(list => window.longTasks.push(...list.getEntries().map(({ startTime, duration }) =>
-            [Math.round(startTime), Math.round(duration)]))).observe({ type: "longtask", buffered: true });
+    let opened = 0;
+    const { clock, processor, script } = await longestTasks(browser, page, async () => {
+        const begun = Date.now();
+        await page.goto(pathToFileURL(resolve(path)).href);
+        await page.waitForFunction(() => document.documentElement.dataset.ready === "ok", null, { timeout: 120_000 });
+        opened = Date.now() - begun;
     });
-    const begun = Date.now();
-    await page.goto(pathToFileURL(resolve(path)).href);
-    await page.waitForFunction(() => document.documentElement.dataset.ready === "ok", null, { timeout: 120_000 });
-    const opened = Date.now() - begun, parsed = await page.evaluate(() =>
-        Math.round(performance.getEntriesByType("navigation")[0].domInteractive));
-    const tasks = await page.evaluate(() => window.longTasks);
     const source = page.locator("#source");
     await source.scrollIntoViewIfNeeded();
     await page.waitForTimeout(1500);
     const times = await source.evaluate(async (canvas, frames) => {
-        const { left, top, width, height } = canvas.getBoundingClientRect(), times = [];
+        const { left, top, width, height } = canvas.getBoundingClientRect(), times = [], pictures = [];
+        canvas.addEventListener("drawn", () => pictures.push(performance.now()));
         const fire = (type, way) => canvas.dispatchEvent(new PointerEvent(type, {
             pointerId: 1, clientX: left + width / 2 + way, clientY: top + height / 2 + way / 3, bubbles: true }));
         canvas.setPointerCapture = () => {};
@@ -40,11 +38,14 @@ async function measure(path) {
             fire("pointermove", 3 * i);
         }
         fire("pointerup", 3 * frames);
-        return times.sort((a, b) => a - b);
+        // A page that does not say when it has drawn draws between its frames.
+        const between = pictures.length ? pictures.slice(1).map((time, i) => time - pictures[i]) : times;
+        return between.sort((a, b) => a - b);
     }, FRAMES);
     await page.close();
-    const longest = tasks.sort((a, b) => b[1] - a[1]).slice(0, 4).map(([at, long]) => `${long} (at ${at})`);
-    console.log(`${path}: open ${opened}, parsed ${parsed}, longest tasks ${longest.join(", ") || "none above 50"}, ` +
+    const round = x => x.toFixed(0);
+    console.log(`${path}: open ${opened}, longest task ${round(clock)} by the clock, ${round(processor)} of the processor, ` +
+        `script ${round(script)}, ` +
         `frame ${times[times.length >> 1].toFixed(0)}, worst of 10 % ${times[Math.floor(0.9 * times.length)].toFixed(0)}`);
 }
 

@@ -225,11 +225,10 @@ Json histogram(const Eigen::VectorXd& abs_mu, const Eigen::VectorXd& weights, do
     return {{"bins", bins}, {"above", above}, {"flipped", flipped}, {"undefined", undefined}};
 }
 
-/// What a map does to the faces, and its φ.
+/// What a map does to the faces that are drawn, and its φ.
 /// @param positions of the drawn vertices
-/// @param end       of the histogram
 void add_values(const PageContent& content, const PageMap& map, const Drawing& drawing, const Positions& positions,
-                const Eigen::VectorXd& areas, double end, Json& entry) {
+                Json& entry) {
     Base64 values(sizeof(float) * drawing.faces.size());
     for (const int face : drawing.faces) values.add(static_cast<float>(map.abs_mu[face]));
     entry["abs_mu"] = values.finish();
@@ -237,9 +236,56 @@ void add_values(const PageContent& content, const PageMap& map, const Drawing& d
         entry["directions"] = encode_directions(content.source, drawing, positions, map.differential->angles);
         entry["critical_points"] = critical_points(content.source, drawing, map.differential->points);
     }
-    entry["p99"] = weighted_quantile(map.abs_mu, areas, 0.99);
-    entry["histogram"] = {{"area", histogram(map.abs_mu, areas, end)},
-                          {"faces", histogram(map.abs_mu, Eigen::VectorXd::Ones(areas.size()), end)}};
+}
+
+/// Of every map what the page says of it, apart from what it draws.
+/// @param end of the histograms
+Json maps_in_numbers(const PageContent& content, const Drawing& drawing, const Eigen::VectorXd& areas, double end) {
+    Json list = Json::array();
+    for (const PageMap& map : content.maps) {
+        if (map.of_source && drawing.coarsened()) continue;
+        Json entry{{"name", map.name}};
+        if (map.of_source) {
+            entry["of_source"] = true;
+        } else {
+            entry["p99"] = weighted_quantile(map.abs_mu, areas, 0.99);
+            entry["histogram"] = {{"area", histogram(map.abs_mu, areas, end)},
+                                  {"faces", histogram(map.abs_mu, Eigen::VectorXd::Ones(areas.size()), end)}};
+        }
+        list.push_back(std::move(entry));
+    }
+    return list;
+}
+
+/// What the page draws. It is long and read beside the page, which does not wait for it.
+Json drawn_mesh(const PageContent& content, const Drawing& drawing) {
+    const Mesh& mesh = content.source;
+    Json result;
+    Base64 triangles(3 * sizeof(std::uint32_t) * drawing.triangles.size());
+    Base64 faces(sizeof(std::uint32_t) * drawing.triangles.size());
+    bool identity = true;
+    for (std::size_t t = 0; t < drawing.triangles.size(); ++t) {
+        for (const int vertex : drawing.triangles[t]) triangles.add(static_cast<std::uint32_t>(vertex));
+        faces.add(static_cast<std::uint32_t>(drawing.faces[t]));
+        identity = identity && drawing.faces[t] == static_cast<int>(t);
+    }
+    result["triangles"] = triangles.finish();
+    if (!identity) result["face"] = faces.finish();
+    const Positions positions = drawing.reduce(mesh.positions);
+    result["source"] = encode_positions(positions);
+    // A coarser mesh merges the copies of a vertex.
+    if (!content.joined.empty() && !drawing.coarsened()) result["joined"] = encode_joined(content.joined);
+    if (!content.texture.empty()) result["texture"] = data_address(content.texture);
+    for (const PageMap& map : content.maps) {
+        if (map.of_source && drawing.coarsened()) continue;
+        Json entry = encode_positions(drawing.reduce(map.map), map.outline);
+        if (map.of_source)
+            entry["of_source"] = true;
+        else
+            add_values(content, map, drawing, positions, entry);
+        result["maps"].push_back(std::move(entry));
+    }
+    return result;
 }
 
 std::string dump(const Json& json) {
@@ -324,23 +370,9 @@ std::string render_page(const PageContent& content) {
 
     const Mesh& mesh = content.source;
     const Drawing drawing = make_drawing(mesh, content.drawn_faces);
-    Base64 triangles(3 * sizeof(std::uint32_t) * drawing.triangles.size());
-    Base64 faces(sizeof(std::uint32_t) * drawing.triangles.size());
-    bool identity = true;
-    for (std::size_t t = 0; t < drawing.triangles.size(); ++t) {
-        for (const int vertex : drawing.triangles[t]) triangles.add(static_cast<std::uint32_t>(vertex));
-        faces.add(static_cast<std::uint32_t>(drawing.faces[t]));
-        identity = identity && drawing.faces[t] == static_cast<int>(t);
-    }
     data["faces"] = mesh.face_count();
     data["coarsened"] = drawing.coarsened();
-    data["triangles"] = triangles.finish();
-    if (!identity) data["face"] = faces.finish();
-    const Positions positions = drawing.reduce(mesh.positions);
-    data["source"] = encode_positions(positions);
-    // A coarser mesh merges the copies of a vertex.
-    if (!content.joined.empty() && !drawing.coarsened()) data["joined"] = encode_joined(content.joined);
-    if (!content.texture.empty()) data["texture"] = data_address(content.texture);
+    data["texture"] = !content.texture.empty();
 
     Eigen::VectorXd areas(mesh.face_count());
     for (int face = 0; face < mesh.face_count(); ++face) areas[face] = face_vector_area(mesh, face).norm();
@@ -349,16 +381,7 @@ std::string render_page(const PageContent& content) {
         if (!map.of_source) end = std::max(end, weighted_quantile(map.abs_mu, areas, 0.995));
     end = std::min(round_up(1.02 * end), 1.0);
     data["histogram_end"] = end;
-    for (const PageMap& map : content.maps) {
-        if (map.of_source && drawing.coarsened()) continue;
-        Json entry = encode_positions(drawing.reduce(map.map), map.outline);
-        entry["name"] = map.name;
-        if (map.of_source)
-            entry["of_source"] = true;
-        else
-            add_values(content, map, drawing, positions, areas, end, entry);
-        data["maps"].push_back(std::move(entry));
-    }
+    data["maps"] = maps_in_numbers(content, drawing, areas, end);
 
     std::string html;
     std::string_view rest(reinterpret_cast<const char*>(kPageTemplate), kPageTemplateSize);
@@ -373,6 +396,8 @@ std::string render_page(const PageContent& content) {
     html += escape_html(content.title);
     copy_until("@DATA@");
     html += dump_for_script(data);
+    copy_until("@MESH@");
+    html += dump_for_script(drawn_mesh(content, drawing));
     html += rest;
     return html;
 }

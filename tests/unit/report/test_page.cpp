@@ -75,8 +75,13 @@ std::string between(const std::string& text, const std::string& begin, const std
     return text.substr(from, text.find(end, from) - from);
 }
 
-Json data_of(const std::string& html) {
-    return Json::parse(between(html, R"(<script type="application/json" id="data">)", "</script>"));
+Json data_of(const std::string& html) {  // its numbers and what it draws
+    Json data = Json::parse(between(html, R"(<script type="application/json" id="data">)", "</script>"));
+    const Json numbers = data["maps"];
+    data.update(Json::parse(between(html, R"(<script type="application/json" id="mesh">)", "</script>")));
+    EXPECT_EQ(data["maps"].size(), numbers.size());
+    for (std::size_t i = 0; i < numbers.size(); ++i) data["maps"][i].update(numbers[i]);
+    return data;
 }
 
 std::vector<std::uint32_t> decode_words(const std::string& base64) {
@@ -457,6 +462,9 @@ TEST(Page, WritesPagesForTheBrowserCheck) {
     }
     PageContent differential = content_of(triangles, {with_differential});
     differential.texture = two_pixels;
+    differential.record_json =
+        R"({"surface_flow":{"history":{"energy":[1,0.1,0.01],"l2":[1,0.3,0.1],"squared":[1,0.1,0.01],
+        "sup":[1,0.5,0.3],"flips":[0,0,0],"length":[1,1,0.5]}}})";
     write("differential.html", differential);
     PageContent cut = cut_content(triangles);
     PageDifferential& on_cut = cut.maps[0].differential.emplace();

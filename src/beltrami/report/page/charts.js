@@ -107,15 +107,15 @@ function drawLine(id, values, name, logarithmic, style) {
     if (!points.length) return;
     const { svg, width } = chart(id, 200), left = 58, right = width - 14, top = 24, base = 164;
     let low = Math.min(...points.map(p => p[1])), high = Math.max(...points.map(p => p[1]));
-    const pad = Math.max(0.06 * (high - low), 1e-4 * Math.abs(high), 1e-12);
-    low = logarithmic ? Math.floor(low + 1e-9) : low - pad;
+    const pad = Math.max(0.06 * (high - low), 1e-4 * Math.abs(high)) || 1, counts = !logarithmic && points.every(p => Number.isInteger(p[1]));
+    low = logarithmic ? Math.floor(low + 1e-9) : Math.max(low - pad, 0);  // nothing shown here is below 0
     high = logarithmic ? Math.max(Math.ceil(high - 1e-9), low + 1) : high + pad;
     const last = Math.max(values.length, 2), x = i => left + (right - left) * (i - 1) / (last - 1);
     const y = v => base - (base - top) * (v - low) / (high - low);
     for (const [tick, text] of roundTicks(low, high, 4)) {
-        if (logarithmic && !Number.isInteger(tick)) continue;
+        if ((logarithmic || counts) && !Number.isInteger(tick)) continue;
         svgElement(svg, "line", { class: "rule", x1: left, x2: right, y1: y(tick), y2: y(tick) });
-        const shown = logarithmic ? show(10 ** tick, 1) : text;
+        const shown = logarithmic ? show(10 ** tick, 1) : counts ? show(tick) : text;
         svgElement(svg, "text", { x: left - 8, y: y(tick) + 4, "text-anchor": "end" }, shown);
     }
     svgElement(svg, "line", { class: "axis", x1: left, x2: right, y1: base, y2: base });

@@ -1,22 +1,17 @@
 // The controls, and what happens when the page opens.
 
 import "./page.css";
+import { ask, beginDrawing, readMesh } from "./beside.js";
 import { drawCharts, drawHistogram } from "./charts.js";
 import { viridisAt } from "./colours.js";
-import { ellipses } from "./ellipses.js";
-import { copyOf, maps, readMesh, source, triangleCount } from "./mesh.js";
+import { copyOf, maps, source, takeMesh, triangleCount } from "./mesh.js";
 import {
     $, count, data, dilatation, element, isNumber, percent, record, show, words, writeComparison, writeNumbers, writeRecord,
     writeSentence,
 } from "./numbers.js";
-import {
-    cutPieces, has, hide, makeScene, outlinePieces, showEdges, showEllipses, showLines, showMap, showPicture, showPoints,
-} from "./scene.js";
 import { state } from "./state.js";
-import { linesThrough, trajectories } from "./trajectories.js";
 import { hover, makeViews, nudge, pick, redraw } from "./view.js";
 
-const WHITE = [1, 1, 1], ALONG = [1, 0.62, 0.25], ACROSS = [0.45, 0.85, 1], CUT = [0.95, 0.3, 0.3];
 const busy = text => { $("busy").textContent = text; };
 let views;
 
@@ -50,8 +45,9 @@ async function chooseMap(index) {
     updateLegend();
     hover(-1);
     if (!views) return;
-    showMap(map);
-    for (const view of views) await view.show();
+    const { orders, align } = await ask("choose", index);
+    if (state.map !== map) return;
+    views.forEach((view, i) => view.show(orders[i], align));
     await refreshLayers();
 }
 
@@ -84,45 +80,16 @@ function chooseOverlay(name) {
     for (const input of document.querySelectorAll("input[name=overlay]")) input.checked = input.value === name;
 }
 
-/// Makes what is to be shown and is not there yet.
 async function refreshLayers() {
-    const { map } = state;
-    if (state.edges) await showEdges();
-    if (state.ellipses && !has("ellipses")) showEllipses(ellipses(map));
-    if (state.points && !has("points")) showPoints(criticalPoints(map));
-    for (const [name, wanted, turn, colour] of [["across", state.across, Math.PI / 2, ACROSS], ["lines", state.trajectories, 0, WHITE]]) {
-        if (!wanted || has(name)) continue;
-        busy("Drawing lines …");
-        const pieces = await trajectories(map, turn);
-        if (state.map === map) showLines(name, pieces, colour, 1.5);
-        busy("");
-    }
-    if (state.outline && map.outline.length && !has("outline")) {
-        showLines("outline", outlinePieces(map), WHITE, 1.7);
-        if (copyOf) {
-            const pieces = await cutPieces(map);
-            if (state.map === map) showLines("cut", pieces, CUT, 1.4);
-        }
-    }
+    const { edges, ellipses, points, trajectories, across, outline } = state;
+    if (trajectories || across) busy("Drawing lines …");
+    await ask("layers", { edges, ellipses, points, trajectories, across, outline });
+    busy("");
     redraw();
 }
 
-/// 7 numbers each: place on the source, place in the image, order.
-function criticalPoints({ critical_points: points = [], surface: image }) {
-    const at = (positions, { vertices, weights }) => [0, 1, 2].map(i =>
-        vertices.reduce((sum, vertex, j) => sum + (weights[j] && weights[j] * positions[3 * vertex + i]), 0));
-    return new Float32Array(points.flatMap(point => [...at(source.points, point), ...at(image.points, point), point.order]));
-}
-
 async function showPicked() {
-    const { map, picked } = state;
-    for (const name of ["picked", "pickedAcross"]) hide(name);
-    if (picked >= 0) {
-        const [along, across] = await linesThrough(map, picked);
-        if (state.picked !== picked || state.map !== map) return;
-        showLines("pickedAcross", across, ACROSS, 1.7);
-        showLines("picked", along, ALONG, 2);
-    }
+    await ask("pick", state.picked);
     redraw();
 }
 
@@ -190,7 +157,7 @@ function connect() {
     $("fit").onclick = () => { setTop(bestTop([state.map])); redraw(); };
     $("reset").onclick = () => { setBlend(0); pick(-1); views.forEach(view => view.reset()); redraw(); };
     addEventListener("pick", showPicked);
-    let shownWidth = 0;
+    let shownWidth = document.body.clientWidth;
     new ResizeObserver(() => {
         if (document.body.clientWidth === shownWidth) return;
         shownWidth = document.body.clientWidth;
@@ -204,28 +171,22 @@ function writeTexts() {
     writeNumbers();
     writeComparison();
     writeRecord();
-    if (data.coarsened) $("drawing-note").textContent = `The mesh has ${show(data.faces)} faces; the figures show a coarser
-        mesh of ${show(triangleCount)} triangles. All numbers and the histogram come from the full mesh.`;
     $("picture-choice").hidden = !data.texture;
 }
 
 async function drawFigures() {
-    try {
-        makeScene();
-    } catch {
-        $("drawing-note").textContent = "This browser draws no WebGL: the figures are left out, all numbers are there.";
-        document.querySelector(".figures").hidden = true;
-        return;
-    }
     views = makeViews();
-    if (data.texture) await showPicture(data.texture);
     await chooseMap(0);
+    connect();
+    await Promise.all(views.map(view => view.seen));
 }
 
+/// Texts first, then figures as soon as the mesh has been read beside the page.
 async function start() {
-    busy("Reading the mesh …");
-    await readMesh();
     writeTexts();
+    busy("Reading the mesh …");
+    const draws = await beginDrawing();
+    takeMesh((await readMesh()).mesh, data.maps);
     state.map = maps[0];
     const planar = source.planar || state.map.surface.planar;
     chooseOverlay(data.texture ? "image" : planar ? "circles" : "none");
@@ -233,8 +194,16 @@ async function start() {
     state.points = Boolean(state.map.critical_points?.length);
     setTop(bestTop(maps));
     drawCharts();
-    await drawFigures();
-    if (views) connect(); else await chooseMap(0);
+    if (data.coarsened) $("drawing-note").textContent = `The mesh has ${show(data.faces)} faces; the figures show a coarser
+        mesh of ${show(triangleCount)} triangles. All numbers and the histogram come from the full mesh.`;
+    if (draws) {
+        await ask("scene");
+        await drawFigures();
+    } else {
+        $("drawing-note").textContent = "This browser draws no WebGL: the figures are left out, all numbers are there.";
+        document.querySelector(".figures").hidden = true;
+        await chooseMap(0);
+    }
     busy("");
     document.documentElement.dataset.ready = "ok";
 }

@@ -1,21 +1,23 @@
-// The mesh as the page brings it: triangles, the surface and its images. Everything that takes longer than a moment is
-// done in slices, between which the page stays alive.
+// The mesh as the page brings it: triangles, the surface and its images. It is read beside the page and handed to it.
+// Everything that takes longer than a moment is done in slices, between which whoever waits is answered.
 
-import { data } from "./numbers.js";
+const PIECE = 1000, SLICE = 8;  // of a loop, between looks at the clock; ms
+let resumed = 0;
 
-const SLICE = 20000;
-
-const pause = () => new Promise(resolve => {
-    const { port1, port2 } = new MessageChannel();
-    port1.onmessage = () => { port1.close(); resolve(); };
-    port2.postMessage(0);
-});
+export async function pause() {
+    await new Promise(resolve => {
+        const { port1, port2 } = new MessageChannel();
+        port1.onmessage = () => { port1.close(); resolve(); };
+        port2.postMessage(0);
+    });
+    resumed = performance.now();
+}
 
 /// body(first, last) for pieces of 0…count.
 export async function inSlices(count, body) {
-    for (let first = 0; first < count; first += SLICE) {
-        body(first, Math.min(first + SLICE, count));
-        await pause();
+    for (let first = 0; first < count; first += PIECE) {
+        body(first, Math.min(first + PIECE, count));
+        if (performance.now() - resumed > SLICE) await pause();
     }
 }
 
@@ -27,7 +29,7 @@ export let copyOf = null;  // of a surface that is cut open: the vertex that eac
 /// Whether two vertices are one on the surface.
 export const sameVertex = (a, b) => copyOf ? copyOf[a] === copyOf[b] : a === b;
 
-async function decode(base64, Type) {
+export async function decode(base64, Type) {
     const bytes = Uint8Array.fromBase64 ? Uint8Array.fromBase64(base64) : new Uint8Array(3 * base64.length / 4
         - (base64.endsWith("==") ? 2 : base64.endsWith("=") ? 1 : 0));
     if (!Uint8Array.fromBase64) await inSlices(bytes.length / 3, (first, last) => {
@@ -94,7 +96,8 @@ async function makeCorners() {
     origins.set(added, vertexCount);
 }
 
-export async function readMesh() {
+/// @param data what the page draws: triangles, face, joined, source and maps
+export async function readMesh(data) {
     triangles = await decode(data.triangles, Uint32Array);
     triangleCount = triangles.length / 3;
     faces = data.face ? await decode(data.face, Uint32Array) : Uint32Array.from({ length: triangleCount }, (_, t) => t);
@@ -102,19 +105,40 @@ export async function readMesh() {
     source = await surface(data.source);
     await makeCorners();
     maps = [];
-    for (const map of data.maps) {
+    for (const { coordinates, abs_mu, directions: angles, outline, ...map } of data.maps) {
         if (map.of_source) {  // all but its place is that of the first map
-            maps.push({ ...maps[0], ...map, surface: await surface(map), measured: maps[0], ...await outlines(map) });
+            maps.push({ ...maps[0], ...map, surface: await surface({ ...map, coordinates }), measured: maps[0], outline: await curves(outline) });
             continue;
         }
-        const directions = map.directions && await decode(map.directions, Uint16Array);
-        maps.push({ ...map, absMu: await decode(map.abs_mu, Float32Array), directions, surface: await surface(map),
-                    scale: map.radius / data.source.radius, ...await outlines(map) });
+        maps.push({ ...map, absMu: await decode(abs_mu, Float32Array), directions: angles && await decode(angles, Uint16Array),
+                    surface: await surface({ ...map, coordinates }), scale: map.radius / data.source.radius, outline: await curves(outline) });
         maps.at(-1).measured = maps.at(-1);
     }
 }
 
-const outlines = async ({ outline = [] }) => ({ outline: await Promise.all(outline.map(curve => decode(curve, Float32Array))) });
+const curves = (outline = []) => Promise.all(outline.map(curve => decode(curve, Float32Array)));
+
+/// What the page itself needs of it, in copies that go over to it.
+export function handedMesh() {
+    const copies = [], copy = array => {
+        if (!array) return null;
+        copies.push(array.slice());
+        return copies.at(-1);
+    };
+    const without = ({ normals, points, ...surface }) => ({ ...surface, points: copy(points) });
+    const mesh = { triangles: copy(triangles), faces: copy(faces), copyOf: copy(copyOf), source: without(source),
+        maps: maps.map(({ surface: s, absMu, directions, critical_points, scale, outline, measured }) => ({ surface: without(s), absMu: copy(absMu),
+            directions: Boolean(directions), critical_points, scale, outline, measured: maps.indexOf(measured) })) };
+    return { mesh, copies: copies.map(({ buffer }) => buffer) };
+}
+
+/// @param numbers what the page knows of the maps
+export function takeMesh(mesh, numbers) {
+    ({ triangles, faces, copyOf, source } = mesh);
+    triangleCount = triangles.length / 3;
+    maps = mesh.maps.map((map, i) => ({ ...numbers[map.measured], ...numbers[i], ...map }));
+    for (const map of maps) map.measured = maps[map.measured];
+}
 
 let neighbours;
 

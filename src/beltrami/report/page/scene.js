@@ -8,7 +8,7 @@ import {
 } from "three";
 
 import { viridisAt } from "./colours.js";
-import { copyOf, corners, edgeNeighbours, faces, inSlices, maps, origins, source, triangleCount, triangles } from "./mesh.js";
+import { copyOf, corners, decode, edgeNeighbours, faces, inSlices, maps, origins, source, triangleCount, triangles } from "./mesh.js";
 import * as shaders from "./shaders.js";
 import { state } from "./state.js";
 import { flattened } from "./stretch.js";
@@ -72,22 +72,34 @@ function glyphs() {
     return texture;
 }
 
-function fill(array, points) {  // no card draws what is not a number
-    for (let c = 0; c < origins.length; ++c)
-        for (let i = 0; i < 3; ++i) array[3 * c + i] = isFinite(points[3 * origins[c] + i]) ? points[3 * origins[c] + i] : 0;
+async function placesOf(points) {  // no card draws what is not a number
+    const array = new Float32Array(3 * origins.length);
+    await inSlices(origins.length, (first, last) => {
+        for (let c = first; c < last; ++c)
+            for (let i = 0; i < 3; ++i) array[3 * c + i] = isFinite(points[3 * origins[c] + i]) ? points[3 * origins[c] + i] : 0;
+    });
+    return array;
 }
 
-function fillNormals(array, { normals }) {
-    for (let c = 0; c < origins.length; ++c)
-        for (let i = 0; i < 3; ++i) array[4 * c + i] = normals ? Math.round(127 * normals[3 * origins[c] + i]) : i === 2 ? 127 : 0;
+async function normalsOf({ normals }) {
+    const array = new Int8Array(4 * origins.length);
+    await inSlices(origins.length, (first, last) => {
+        for (let c = first; c < last; ++c)
+            for (let i = 0; i < 3; ++i) array[4 * c + i] = normals ? Math.round(127 * normals[3 * origins[c] + i]) : i === 2 ? 127 : 0;
+    });
+    return array;
 }
 
 /// @throw Error where the browser has no WebGL
-export function makeScene() {
+export function makeRenderer() {
     renderer = new WebGLRenderer({ canvas: new OffscreenCanvas(1, 1), alpha: true, antialias: false, premultipliedAlpha: true });
     renderer.outputColorSpace = LinearSRGBColorSpace;  // colours are written as they are
     renderer.setClearColor(0, 0);
     renderer.setPixelRatio(1);
+}
+
+/// The surface, once its mesh has been read.
+export async function makeScene() {
     scene = new Scene();
     camera = new Camera();
     shared = { axes: { value: new Matrix3() }, align: { value: new Matrix3() }, frame: { value: new Vector4() },
@@ -96,28 +108,39 @@ export function makeScene() {
     for (const [name, array, size, unit] of [["position", Float32Array, 3], ["image", Float32Array, 3], ["normal", Int8Array, 4, true],
                                              ["imageNormal", Int8Array, 4, true], ["absMu", Float32Array, 1]])
         buffers[name] = new BufferAttribute(new array(size * origins.length), size, unit);
-    fill(buffers.position.array, source.points);
-    fillNormals(buffers.normal.array, source);
+    buffers.position.array.set(await placesOf(source.points));
+    buffers.normal.array.set(await normalsOf(source));
     const geometry = new BufferGeometry();
     for (const name of ["position", "image", "normal", "imageNormal", "absMu"]) geometry.setAttribute(name, buffers[name]);
     parts = { surface: add(new Mesh(geometry, material(shaders.surface, {
         palette: { value: palette() }, picture: { value: null }, pictureScale: { value: new Vector2(1, 1) }, top: { value: 1 },
         shaded: { value: 0 }, overlay: { value: 0 }, spherical: { value: false }, textureOnImage: { value: false },
         light: { value: new Vector3() } })), 0) };
-    return renderer;
 }
 
-/// The image's places and values, when another map is chosen.
-export function showMap(map) {
-    fill(buffers.image.array, map.surface.points);
-    fillNormals(buffers.imageNormal.array, map.surface);
-    for (let t = 0; t < triangleCount; ++t) {
-        const m = map.absMu[t];
-        buffers.absMu.array[corners[3 * t + 2]] = m !== m ? -1 : m > 1 ? 2 : m;
+/// The image's places and values, when another map is chosen; all at once, since pictures are drawn meanwhile.
+export async function showMap(map) {
+    const image = await placesOf(map.surface.points), normals = await normalsOf(map.surface), indices = await indicesOf(map);
+    const values = new Float32Array(origins.length);
+    await inSlices(triangleCount, (first, last) => {
+        for (let t = first; t < last; ++t) {
+            const m = map.absMu[t];
+            values[corners[3 * t + 2]] = m !== m ? -1 : m > 1 ? 2 : m;
+        }
+    });
+    state.map = map;
+    shownIndices = indices;
+    for (const [name, array] of [["image", image], ["imageNormal", normals], ["absMu", values]]) {
+        buffers[name].array.set(array);
+        buffers[name].needsUpdate = true;
     }
-    for (const name of ["image", "imageNormal", "absMu"]) buffers[name].needsUpdate = true;
     for (const name of ["lines", "across", "ellipses", "points", "picked", "pickedAcross", "outline", "cut"]) drop(name);
+    return indices.map(({ order }) => order);
 }
+
+let shownIndices, sourceIndex;
+/// Of the source's figure and of the image's.
+async function indicesOf(map) { return [sourceIndex ??= await indexOf(source, []), await indexOf(map.surface, map.absMu)]; }
 
 function drop(name) {
     if (!parts[name]) return;
@@ -190,10 +213,10 @@ export async function cutPieces({ surface: image }) {
 
 /// @param address of an image, as data:
 export async function showPicture(address) {
-    const image = new Image();
-    image.src = address;
-    await image.decode();
+    const [head, text] = address.split(","), bytes = await decode(text, Uint8Array);
+    const image = await createImageBitmap(new Blob([bytes], { type: head.slice(5).split(";")[0] }), { imageOrientation: "flipY" });
     const texture = new Texture(image);
+    texture.flipY = false;  // of a bitmap no card turns it
     texture.wrapS = texture.wrapT = MirroredRepeatWrapping;
     texture.anisotropy = renderer.capabilities.getMaxAnisotropy();
     texture.needsUpdate = true;
@@ -204,7 +227,7 @@ export async function showPicture(address) {
 
 /// Indices of corners for a figure: triangles that have a place there, flipped ones last (in the plane these then lie on
 /// top); a second, shorter list of triangles between cells of a grid, while the figure moves.
-export async function indexOf({ points }, absMu) {
+async function indexOf({ points }, absMu) {
     const plain = [], flipped = [];
     await inSlices(triangleCount, (first, last) => {
         for (let t = first; t < last; ++t) {
@@ -258,10 +281,10 @@ async function coarser(points, order) {
     return new BufferAttribute(new Uint32Array(kept), 1);
 }
 
-/// Draws what a figure shows onto its canvas.
-/// @param figure axes, scale and shift in pixels, blend, align, index, size, whether it moves, whether it is the image's
-export function draw({ isImage, axes, frame, blend, align, index, moves, width, height, ratio, shaded, edgePixels, context, flat }) {
-    const { domElement: sheet } = renderer;
+/// A picture of what a figure shows.
+/// @param figure axes, scale and shift in pixels, blend, align, size, whether it moves, whether it is the image's
+export function draw({ isImage, axes, frame, blend, align, moves, width, height, ratio, shaded, edgePixels, flat }) {
+    const { domElement: sheet } = renderer, index = shownIndices[isImage ? 1 : 0];
     if (sheet.width !== width || sheet.height !== height) renderer.setSize(width, height, false);
     shared.axes.value.set(...axes.flat());
     shared.align.value.set(...align.flat());
@@ -291,5 +314,5 @@ export function draw({ isImage, axes, frame, blend, align, index, moves, width, 
         part.material.depthTest = !flat;
     }
     renderer.render(scene, camera);
-    context.transferFromImageBitmap(sheet.transferToImageBitmap());
+    return sheet.transferToImageBitmap();
 }

@@ -1,12 +1,12 @@
 // A figure: from which side it is seen, what the hand does to it, and which face is where.
 
+import { ask, pending } from "./beside.js";
 import { $, dilatation, show } from "./numbers.js";
 import { faces, source, triangles } from "./mesh.js";
-import { draw, indexOf } from "./scene.js";
+import { IDENTITY, sideSeen } from "./sides.js";
 import { state } from "./state.js";
 import { stretchOf } from "./stretch.js";
 
-const IDENTITY = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
 const MOST_PIXELS = 1800;
 /// Milliseconds that drawing may take, while a figure moves and when it rests; where it takes longer (without a graphics
 /// card) fewer pixels are drawn, per pixel of the page not fewer than these, and not more.
@@ -16,34 +16,6 @@ const PACE = {
 };
 const REST = 160;        // ms after the last movement until all is drawn
 const TAP = 6;           // pixels that a finger may move and still tap
-const unit = a => a.map(c => c / Math.hypot(...a));
-const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-
-function sideSeen({ planar, facing }) {
-    if (planar) return IDENTITY;
-    const forward = unit(facing || [0.55, -0.75, 0.45]);
-    const right = unit(cross(facing && Math.abs(forward[1]) < 0.9 ? [0, 1, 0] : [0, 0, 1], forward));
-    return [right, cross(forward, right), forward];
-}
-
-/// The rotation that lays a planar image onto the side from which the source is seen, turned to lie as near to it as can be.
-function alignment(image) {
-    if (!image.planar) return IDENTITY;
-    const [right, up] = sideSeen(source);
-    let real = 0, imaginary = 0;  // of Σ source · conj(image)
-    for (let v = 0; v < image.points.length; v += 3) {
-        const p = source.points.subarray(v, v + 3), x = dot(right, p), y = dot(up, p);
-        const a = image.points[v], b = image.points[v + 1];
-        if (!isFinite(a + b + x + y)) continue;
-        real += x * a + y * b;
-        imaginary += y * a - x * b;
-    }
-    const size = Math.hypot(real, imaginary) || 1, c = real / size, s = imaginary / size;
-    const first = right.map((r, i) => c * r + s * up[i]), second = right.map((r, i) => c * up[i] - s * r);
-    const third = cross(first, second);
-    return [0, 1, 2].map(i => [first[i], second[i], third[i]]);
-}
 
 class View {
     constructor(canvas, isImage) {
@@ -53,6 +25,7 @@ class View {
         this.pin = canvas.nextElementSibling;
         this.fingers = new Map();
         this.version = 0;
+        this.seen = new Promise(resolve => { this.complete = resolve; });  // all of it, for the first time
         this.reset();
         this.listen();
     }
@@ -60,13 +33,14 @@ class View {
     get blend() { return this.isImage ? 1 : state.blend; }
     get flat() { return this.surface.planar && (this.isImage || state.blend === 0 || state.map.surface.planar); }
 
-    async show() {  // after another map has been chosen
-        const map = state.map, align = this.isImage ? IDENTITY : alignment(map.surface);
-        const wasPlanar = this.wasPlanar;
-        const index = this.isImage || !this.index ? await indexOf(this.surface, this.isImage ? map.absMu : []) : this.index;
-        if (state.map !== map) return;
-        Object.assign(this, { index, align, wasPlanar: this.surface.planar });
+    /// After another map has been chosen.
+    /// @param order of the triangles that have a place here, as they are drawn
+    show(order, align) {
+        const { wasPlanar } = this, first = !this.order;
+        Object.assign(this, { order, align: this.isImage ? IDENTITY : align, wasPlanar: this.surface.planar });
+        ++this.version;
         if (wasPlanar !== this.surface.planar) this.reset();
+        if (first) this.schedule();  // something at once
     }
     reset() {
         this.zoom = 1;
@@ -87,32 +61,51 @@ class View {
     /// Half the figure's width in pixels of the page; a surface needs room to turn, an image in the plane has none to lose.
     fit(width, height) { return Math.min(width, height) / (this.flat || this.isImage && this.surface.planar ? 2.12 : 2.5); }
 
-    render() {
+    /// Asks for one picture at a time; for what has moved meanwhile when it has come.
+    async render() {
         const box = this.canvas.getBoundingClientRect();
-        if (!box.width || !this.index) return;
-        const pace = this.moves ? PACE.moving : PACE.still, { least, most, budget } = pace;
+        if (!box.width) this.complete();  // nothing to be seen
+        if (!box.width || !this.order) return;
+        if (this.drawing) { this.stale = true; return; }
+        const { moves } = this, pace = moves ? PACE.moving : PACE.still, { least, most, budget } = pace;
         const affordable = pace.perPixel ? Math.sqrt(budget / pace.perPixel / box.width / box.height) : 1;
         const ratio = Math.min(Math.max(affordable, least), most(), MOST_PIXELS / box.width);
-        const begun = performance.now(), width = Math.round(box.width * ratio), height = Math.round(box.height * ratio);
+        const width = Math.round(box.width * ratio), height = Math.round(box.height * ratio);
         const size = this.fit(box.width, box.height) * this.zoom, sourceShade = source.planar ? 0 : 1, imageShade = state.map.surface.planar ? 0 : 1;
-        draw({
-            isImage: this.isImage, axes: this.axes, blend: this.blend, align: this.align, index: this.index, moves: this.moves, width, height, ratio,
+        const { top, overlay, edges, trajectories, across, ellipses, points, outline, picked } = state;
+        this.drawing = true;
+        const { picture, spent } = await ask("draw", {
+            isImage: this.isImage, axes: this.axes, blend: this.blend, align: this.align, moves, width, height, ratio,
             frame: [2 * size / box.width, 2 * size / box.height, 2 * this.panX * this.fit(box.width, box.height) / box.width,
                     -2 * this.panY * this.fit(box.width, box.height) / box.height],
-            shaded: sourceShade * (1 - this.blend) + imageShade * this.blend, flat: this.flat, context: this.context,
-            edgePixels: ratio * size * Math.sqrt(6 / this.index.order.length),
-        });
+            shaded: sourceShade * (1 - this.blend) + imageShade * this.blend, flat: this.flat,
+            edgePixels: ratio * size * Math.sqrt(6 / this.order.length),
+            shown: { top, overlay, edges, trajectories, across, ellipses, points, outline, picked },
+        }).finally(() => { this.drawing = false; });
+        this.context.transferFromImageBitmap(picture);
         this.placePin();
-        const first = !pace.perPixel, spent = (performance.now() - begun) / (width * height);
-        pace.perPixel = first ? spent : 0.6 * pace.perPixel + 0.4 * spent;
-        if (first && !this.moves) this.schedule(true);  // at once sharper, where that costs little
+        this.canvas.dispatchEvent(new Event("drawn"));
+        if (!moves) this.complete();
+        const first = !pace.perPixel, each = spent / (width * height);
+        pace.perPixel = first ? each : 0.6 * pace.perPixel + 0.4 * each;
+        if (this.stale) this.soon();
+        else if (first && !moves) this.schedule(true);  // at once sharper, where that costs little
+        this.stale = false;
+    }
+    soon() {
+        if (this.frame) return;
+        pending(1);
+        this.frame = requestAnimationFrame(() => { this.frame = 0; this.render().finally(() => pending(-1)); });
     }
     schedule(still = false) {  // quickly at once, all of it when the hand rests
-        clearTimeout(this.timer);
+        if (this.timer) { clearTimeout(this.timer); pending(-1); }
+        this.timer = 0;
         ++this.version;
         this.moves = !still;
-        this.frame ??= requestAnimationFrame(() => { this.frame = undefined; this.render(); });
-        if (!still) this.timer = setTimeout(() => this.schedule(true), REST);
+        this.soon();
+        if (still) return;
+        pending(1);
+        this.timer = setTimeout(() => { this.schedule(true); }, REST);
     }
 
     /// Where vertices are on the page, from the figure's upper left corner, and how near to the reader.
@@ -140,11 +133,11 @@ class View {
         return this.projected = { version: this.version, x, y, z };
     }
     triangleAt({ clientX, clientY }) {
-        if (!this.index) return -1;
+        if (!this.order) return -1;
         const box = this.canvas.getBoundingClientRect(), px = clientX - box.left, py = clientY - box.top;
         const { x, y, z } = this.project(), { flat } = this;
         let best = -1, nearest = -Infinity;
-        for (const t of this.index.order) {
+        for (const t of this.order) {
             const a = triangles[3 * t], b = triangles[3 * t + 1], c = triangles[3 * t + 2];
             if (!(Math.min(x[a], x[b], x[c]) <= px && px <= Math.max(x[a], x[b], x[c]) &&
                   Math.min(y[a], y[b], y[c]) <= py && py <= Math.max(y[a], y[b], y[c]))) continue;
@@ -160,7 +153,7 @@ class View {
     placePin() {
         const t = this.pinned ?? -1, { clientWidth: width, clientHeight: height } = this.canvas;
         let x = NaN, y = NaN;
-        if (t >= 0 && this.index) {
+        if (t >= 0 && this.order) {
             const at = this.projector(), mean = i => [0, 1, 2].reduce((sum, corner) => sum + at(triangles[3 * t + corner], i), 0) / 3;
             [x, y] = [mean(0) / width, mean(1) / height];
         }
