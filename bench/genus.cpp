@@ -10,7 +10,6 @@
 #include <sys/resource.h>
 
 #include <cmath>
-#include <ctime>
 #include <string>
 
 #include <beltrami/beltrami.h>
@@ -22,17 +21,6 @@
 namespace {
 
 using namespace beltrami;
-
-double now() {
-    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
-
-double harmonic_processor_seconds(const Mesh& mesh) {
-    const bench::ClosedHarmonic problem(mesh);
-    const double start = now();
-    harmonic_seconds(problem.open, problem.boundary);  // three times
-    return (now() - start) / 3;
-}
 
 double peak_megabytes() {
     rusage usage{};
@@ -46,19 +34,19 @@ Mesh stretched(Mesh mesh) {
 }
 
 void measure(const std::string& name, const Mesh& from, const Mesh& to, const Positions& start) {
-    const double harmonic = harmonic_processor_seconds(from);
+    const double harmonic = bench::closed_harmonic_processor_seconds(from);
     const Surface source(from), target(to);
-    const double t0 = now();
+    const double t0 = bench::processor_seconds();
     const HyperbolicShape a(source);
-    const double t1 = now();
+    const double t1 = bench::processor_seconds();
     const int solves = a.differentials().solves;
-    const double t2 = now();
+    const double t2 = bench::processor_seconds();
     const HyperbolicShape b(target);
     const Marking marking = marking_by_vertices(source, a.metric().original, b.group(),
                                                 nearest_vertices(target.mesh, b.metric().metric.triangles, start));
-    const double t3 = now();
+    const double t3 = bench::processor_seconds();
     const HyperbolicMap map = hyperbolic_map(a, b, marking.map);
-    const double t4 = now();
+    const double t4 = bench::processor_seconds();
     fmt::print(
         "| {} | {} / {} | {:.3f} | {:.2f} ({:.1f}, {} steps) | {:.2f} ({:.1f}, {} solves) | {:.2f} ({:.1f}, {} + {} "
         "steps) "
