@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <array>
 
+#include <beltrami/differentials/face_charts.h>
 #include <beltrami/differentials/sphere_space.h>
-#include <beltrami/sphere/atlas.h>
 
 namespace beltrami {
 
@@ -85,53 +85,13 @@ Complex position(const Chart& chart, int first_corner, std::size_t degree, const
     return (1 - x) * (1 - y) * at(0) + x * (1 - y) * at(1) + x * y * at(2) + (1 - x) * y * at(3);
 }
 
-/// Triangles in charts of their own. A face is as good as flat there where its middle is the projection's centre, and
-/// the linear map of it misses being conformal by the second order in its size, where that of any other chart does by
-/// the first.
-class CentredCharts {
-  public:
-    CentredCharts(const Surface& source, const Chart& chart)
-        : operators_(per_corner(source.operators, source.mesh.faces)), places_(chart.corners.size()) {
-        const FaceList& faces = source.mesh.faces;
-        for (int f = 0; f < faces.size(); ++f) {
-            const int first = faces.first_corner(f), degree = faces.degree(f);
-            Complex middle = 0;
-            for (int i = 0; i < degree; ++i) middle += chart.corners[first + i] / static_cast<double>(degree);
-            south_.push_back(middle.real() > atlas::kSouth / 2);
-            middle -= offset(f);
-            middles_.push_back(middle);
-            for (int i = 0; i < degree; ++i) {
-                const Complex z = chart.corners[first + i] - offset(f);
-                places_[first + i] = (z - middle) / (1.0 + std::conj(middle) * z);
-            }
-        }
-    }
-
-    /// Where a place of a triangle is in the atlas, and the derivative of the map there.
-    std::array<Complex, 2> at(int sample, int face, int first_corner, const Place& place) const {
-        const auto corner = [&](int j) { return places_[first_corner + j]; };
-        const Complex zeta = corner(0) + place[0] * (corner(1) - corner(0)) + place[1] * (corner(2) - corner(0)),
-                      middle = middles_[face], rest = 1.0 - std::conj(middle) * zeta;
-        const Complex derivative = operators_.derivatives(sample, places_)[0];
-        return {offset(face) + (zeta + middle) / rest, derivative * (1 + std::norm(middle)) / (rest * rest)};
-    }
-
-  private:
-    double offset(int face) const { return south_[face] ? atlas::kSouth : 0.0; }
-
-    Operators operators_;
-    Eigen::VectorXcd places_;  // of the corners
-    std::vector<Complex> middles_;
-    std::vector<char> south_;
-};
-
 }  // namespace
 
 SamplePoints conical_points(const Surface& source, const Chart& chart, std::span<const int> landmarks, int rings) {
     const Operators& operators = source.operators;
     const FaceList& faces = source.mesh.faces;
     const std::vector<char> near = faces_near(faces, source.mesh.vertex_count(), landmarks, rings);
-    const CentredCharts centred(source, chart);
+    const FaceCharts centred(source, chart);
     SamplePoints result;
     std::vector<Complex> positions, derivatives;
     std::vector<double> all_weights;
@@ -158,7 +118,8 @@ SamplePoints conical_points(const Surface& source, const Chart& chart, std::span
         for (std::size_t i = 0; i < places.size(); ++i) {
             result.samples.push_back(s);
             if (corners.size() == 3) {
-                const auto [place, derivative] = centred.at(s, face, faces.first_corner(face), places[i]);
+                const auto [place, derivative] =
+                    centred.at(s, face, {1 - places[i][0] - places[i][1], places[i][0], places[i][1]});
                 positions.push_back(place);
                 derivatives.push_back(derivative);
             } else {

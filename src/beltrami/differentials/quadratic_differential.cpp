@@ -1,10 +1,12 @@
 #include <beltrami/differentials/quadratic_differential.h>
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include <beltrami/base/error.h>
 #include <beltrami/base/parallel.h>
+#include <beltrami/differentials/face_charts.h>
 #include <beltrami/differentials/tabulated_space.h>
 
 namespace beltrami {
@@ -45,15 +47,39 @@ std::vector<int> vertices_at(const Chart& chart, std::vector<Complex> places) {
     return vertices;
 }
 
-/// The position of a place in a chart that is known at the corners of faces.
-Complex in_atlas(const Surface& source, const Chart& chart, const MeshPoint& place) {
+/// Corners of its face that a place names.
+std::array<int, 3> corners_of(const Surface& source, const MeshPoint& place) {
     const auto corners = source.mesh.faces[place.face];
-    Complex sum = 0;
-    for (int i = 0; i < 3; ++i) {
-        const auto corner = std::find(corners.begin(), corners.end(), place.vertices[i]) - corners.begin();
-        sum += place.barycentric[i] * chart.corners[source.mesh.faces.first_corner(place.face) + corner];
+    std::array<int, 3> result;
+    for (int i = 0; i < 3; ++i)
+        result[i] = static_cast<int>(std::find(corners.begin(), corners.end(), place.vertices[i]) - corners.begin());
+    return result;
+}
+
+/// Places in a chart that is known at the corners of faces: inside quads linear, inside triangles as the c-step has it.
+ChartPoints points_in_atlas(const Surface& source, const Chart& chart, std::span<const MeshPoint> places,
+                            const std::vector<int>& samples) {
+    const FaceCharts centred(source, chart);
+    const auto count = static_cast<Eigen::Index>(places.size());
+    ChartPoints points{Eigen::VectorXcd(count), Eigen::VectorXcd(count)};
+    for (Eigen::Index i = 0; i < count; ++i) {
+        const MeshPoint& place = places[i];
+        const std::array<int, 3> corners = corners_of(source, place);
+        if (source.mesh.faces.degree(place.face) == 3) {
+            std::array<double, 3> barycentric{};
+            for (int j = 0; j < 3; ++j) barycentric[corners[j]] += place.barycentric[j];
+            const auto [position, derivative] = centred.at(samples[i], place.face, barycentric);
+            points.positions[i] = position;
+            points.derivatives[i] = derivative;
+            continue;
+        }
+        points.positions[i] = 0;
+        for (int j = 0; j < 3; ++j)
+            points.positions[i] +=
+                place.barycentric[j] * chart.corners[source.mesh.faces.first_corner(place.face) + corners[j]];
+        points.derivatives[i] = chart.derivatives[samples[i]];
     }
-    return sum;
+    return points;
 }
 
 }  // namespace
@@ -148,9 +174,9 @@ ChartPoints chart_points(const Surface& source, const Chart& chart, std::span<co
         return points;
     }
     const std::vector<int> samples = nearest_samples(source, places);
+    if (chart.corners.size()) return points_in_atlas(source, chart, places, samples);
     for (Eigen::Index i = 0; i < count; ++i) {
-        points.positions[i] =
-            chart.corners.size() ? in_atlas(source, chart, places[i]) : places[i].interpolate(chart.vertices);
+        points.positions[i] = places[i].interpolate(chart.vertices);
         points.derivatives[i] = chart.derivatives[samples[i]];
     }
     return points;
