@@ -6,6 +6,7 @@
 #include <numeric>
 #include <optional>
 
+#include <beltrami/charts/round_disk.h>
 #include <beltrami/operators/distortion.h>
 #include <beltrami/plane/increasing.h>
 #include <beltrami/unfold/convex_combination_map.h>
@@ -20,6 +21,8 @@ constexpr double kTurn = 2 * std::numbers::pi;
 /// Least angle of a boundary edge, as a part of the mean of those around it, or, where that leaves folds, of what arc
 /// length would give it: faces with three vertices on a rim of 1e-9 are smaller than rounding.
 constexpr double kOfNeighbours = 1e-3, kOfLength[] = {1e-5, 1e-3};
+/// See with_folds_opened(): the part of the chart that may stay turned over.
+constexpr double kMostUnseen = 1e-5;
 
 /// Angles of the boundary edges around 0; empty if they do not go round once.
 std::vector<double> angles_of(const std::vector<int>& loop, const Eigen::VectorXcd& chart) {
@@ -53,29 +56,43 @@ std::vector<double> raised_angles(const Surface& source, std::vector<double> ang
     return angles;
 }
 
+/// A map with the boundary on the circle by its angles.
+struct OnCircle {
+    BoundaryCondition boundary;
+    Eigen::VectorXcd start;
+};
+OnCircle on_circle(const Surface& source, const Eigen::VectorXcd& chart, const std::vector<double>& angles,
+                   bool kept_boundary) {
+    const std::vector<int>& loop = source.topology.boundary_loops[0];
+    const double sum = std::accumulate(angles.begin(), angles.end(), 0.0);
+    OnCircle result{{}, chart};
+    double at = kept_boundary ? std::arg(chart[loop[0]]) : 0;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        result.boundary.pin(loop[i], std::polar(1.0, at));
+        result.start[loop[i]] = result.boundary.images[i];
+        at += kTurn * angles[i] / sum;
+    }
+    return result;
+}
+
+/// Opens the folds where they are.
+void open_locally(const Surface& source, const OnCircle& from, FoldFreeDisk& result) {
+    LocalUnfolding opened = unfold_locally(source, freedoms(from.boundary, source), from.start);
+    result.factorizations += opened.factorizations;
+    result.map = std::move(opened.map);
+    result.fold_free = opened.fold_free;
+}
+
 /// Puts the boundary on the circle by its angles and opens the folds inside.
 void open_folds(const Surface& source, const Eigen::VectorXcd& chart, const std::vector<double>& angles,
                 FoldFreeDisk& result) {
-    const std::vector<int>& loop = source.topology.boundary_loops[0];
-    const double sum = std::accumulate(angles.begin(), angles.end(), 0.0);
-    BoundaryCondition boundary;
-    double at = result.kept_boundary ? std::arg(chart[loop[0]]) : 0;
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-        boundary.pin(loop[i], std::polar(1.0, at));
-        at += kTurn * angles[i] / sum;
-    }
-    Eigen::VectorXcd start = chart;
-    for (std::size_t i = 0; i < loop.size(); ++i) start[loop[i]] = boundary.images[i];
-    const std::vector<Freedom> freedom = freedoms(boundary, source);
+    const OnCircle from = on_circle(source, chart, angles, result.kept_boundary);
+    const auto& [boundary, start] = from;
     if (result.kept_boundary) {
-        LocalUnfolding opened = unfold_locally(source, freedom, start);
-        result.factorizations += opened.factorizations;
-        if (opened.fold_free) {
-            result.map = std::move(opened.map);
-            result.fold_free = true;
-            return;
-        }
+        open_locally(source, from, result);
+        if (result.fold_free) return;
     }
+    const std::vector<Freedom> freedom = freedoms(boundary, source);
     const Eigen::VectorXcd conformal = Eigen::VectorXcd::Zero(source.operators.sample_count());
     FoldFreeMap found = fold_free_map(source, freedom, conformal, start);
     result.factorizations += found.factorizations;
@@ -89,6 +106,27 @@ void open_folds(const Surface& source, const Eigen::VectorXcd& chart, const std:
 }
 
 }  // namespace
+
+Chart with_folds_opened(const Surface& source, Chart chart) {
+    const std::vector<double> angles = angles_of(source.topology.boundary_loops[0], chart.vertices);
+    const bool forward = !angles.empty() && *std::min_element(angles.begin(), angles.end()) > 0;
+    const double unseen = chart.excluded_faces > 0 ? unseen_part(source, chart) : 0;
+    if (forward && unseen <= kMostUnseen) return chart;
+    FoldFreeDisk opened;
+    if (angles.empty()) {
+        opened = fold_free_disk(source, chart.vertices);
+        if (!opened.fold_free) return chart;
+    } else {
+        opened.kept_boundary = true;
+        const std::vector<double> raised = raised_angles(source, angles, 0, opened);
+        open_locally(source, on_circle(source, chart.vertices, raised, true), opened);
+    }
+    centre_in_disk(opened.map, vertex_areas(source.operators));
+    Chart result = make_chart(source, std::move(opened.map), false);
+    result.factorizations = chart.factorizations + opened.factorizations;
+    // What folds are left are smaller than rounding; the rim's order is what matters.
+    return forward && unseen_part(source, result) >= unseen ? chart : result;
+}
 
 FoldFreeDisk fold_free_disk(const Surface& source, const Eigen::VectorXcd& chart) {
     FoldFreeDisk result;

@@ -23,4 +23,10 @@ struct FoldFreeDisk {
 /// @pre one component, one boundary loop, genus 0
 FoldFreeDisk fold_free_disk(const Surface& source, const Eigen::VectorXcd& chart);
 
+/// The chart for writing differentials down in: where it turns over a part of itself that counts, or its boundary runs
+/// backwards somewhere, its boundary vertices are put in their order (as fold_free_disk) and its folds opened where
+/// they are; a few that are smaller than rounding may be left. Elsewhere the chart as it is.
+/// @pre as fold_free_disk
+Chart with_folds_opened(const Surface& source, Chart chart);
+
 }  // namespace beltrami

@@ -16,8 +16,6 @@ namespace beltrami {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-/// A source at a vertex is for crowded outlines; of a rim with fewer edges it tells no more.
-constexpr std::size_t kLeastCrowdedRim = 40;
 
 /// The real harmonic function with the values of @p boundary on the boundary.
 Eigen::VectorXd harmonic_extension(const BeltramiSolver& dirichlet, const Eigen::VectorXd& boundary) {
@@ -175,8 +173,7 @@ Chart compute_chart(const Surface& source, const BeltramiSolver* dirichlet, cons
     if (chart.excluded_faces > 0)
         if (Chart other = chart_by(ConjugateBy::system); other.excluded_faces < chart.excluded_faces)
             chart = std::move(other);
-    if (chart.excluded_faces > 0 && source.mesh.faces.corner_count() == 3 * source.mesh.face_count() &&
-        source.topology.boundary_loops[0].size() >= kLeastCrowdedRim && unseen_part(source, chart) > kMostUnseen)
+    if (chart.excluded_faces > 0 && unseen_part(source, chart) > kMostUnseen)
         if (auto g = disk_map_by_vertex_source(source, &factorizations)) {
             centre_in_disk(*g, areas);
             if (Chart other = make_chart(source, std::move(*g), false);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -19,6 +20,27 @@ namespace {
 /// Of the mean step around it, what every step of the rim has at least: vertices that only touch the rim have no flux.
 constexpr double kLeastOfNeighbours = 0.1;
 
+/// The corners of the surface's triangles; quads are cut along their shorter diagonals, as the intrinsic triangulation
+/// has no use for anything else.
+std::vector<std::array<int, 3>> triangle_corners(const FaceList& faces,
+                                                 const std::function<double(int, int)>& distance) {
+    std::vector<std::array<int, 3>> result;
+    result.reserve(static_cast<std::size_t>(faces.corner_count()));
+    for (int f = 0; f < faces.size(); ++f) {
+        const int c = faces.first_corner(f);
+        if (faces.degree(f) == 3) {
+            result.push_back({c, c + 1, c + 2});
+        } else if (distance(c, c + 2) <= distance(c + 1, c + 3)) {
+            result.push_back({c, c + 1, c + 2});
+            result.push_back({c, c + 2, c + 3});
+        } else {
+            result.push_back({c, c + 1, c + 3});
+            result.push_back({c + 1, c + 2, c + 3});
+        }
+    }
+    return result;
+}
+
 /// The surface's triangles by their edge lengths, flipped until they are Delaunay.
 IntrinsicTriangulation delaunay_of(const Surface& source) {
     const FaceList& faces = source.mesh.faces;
@@ -26,17 +48,32 @@ IntrinsicTriangulation delaunay_of(const Surface& source) {
         if (source.metric) return source.metric->row(corner);
         return source.mesh.positions.row(faces.vertices()[corner]);
     };
+    const auto distance = [&](int a, int b) { return (point(a) - point(b)).stableNorm(); };
     // Both sides of an edge agree: the mean, where faces of a metric differ about it.
     std::vector<double> lengths(source.topology.edges.size(), -1);
-    for (int c = 0; c < faces.corner_count(); ++c) {
-        const int next = c % 3 == 2 ? c - 2 : c + 1;
-        const double length = (point(next) - point(c)).stableNorm();
-        double& known = lengths[source.topology.corner_edges[c]];
-        known = known < 0 ? length : std::midpoint(known, length);
+    std::vector<int> edge_after(static_cast<std::size_t>(faces.corner_count()));  // the corner where an edge ends
+    for (int f = 0; f < faces.size(); ++f)
+        for (int first = faces.first_corner(f), i = 0; i < faces.degree(f); ++i) {
+            const int c = first + i, next = first + (i + 1) % faces.degree(f);
+            edge_after[c] = next;
+            const double length = distance(c, next);
+            double& known = lengths[source.topology.corner_edges[c]];
+            known = known < 0 ? length : std::midpoint(known, length);
+        }
+    FaceList triangles;
+    std::vector<double> logarithms;
+    const auto corners = triangle_corners(faces, distance);
+    triangles.reserve(static_cast<int>(corners.size()), static_cast<int>(3 * corners.size()));
+    logarithms.reserve(3 * corners.size());
+    for (const auto& t : corners) {
+        triangles.add({faces.vertices()[t[0]], faces.vertices()[t[1]], faces.vertices()[t[2]]});
+        for (std::size_t k = 0; k < 3; ++k) {
+            const int c = t[k], next = t[(k + 1) % 3];
+            logarithms.push_back(
+                std::log(edge_after[c] == next ? lengths[source.topology.corner_edges[c]] : distance(c, next)));
+        }
     }
-    std::vector<double> logarithms(faces.corner_count());
-    for (int c = 0; c < faces.corner_count(); ++c) logarithms[c] = std::log(lengths[source.topology.corner_edges[c]]);
-    IntrinsicTriangulation triangulation(faces, source.mesh.vertex_count(), std::move(logarithms));
+    IntrinsicTriangulation triangulation(triangles, source.mesh.vertex_count(), std::move(logarithms));
     triangulation.make_delaunay();
     return triangulation;
 }

@@ -16,7 +16,7 @@ namespace beltrami {
 /// near it than that of greens_function.h.
 /// @param factorizations counts those made
 /// @return #V, |g| = 1 on the rim; nothing where there is no inner vertex or where some part of the rim has no flux
-/// @pre triangles, one component, one boundary loop, genus 0
+/// @pre one component, one boundary loop, genus 0; quads are taken as their triangles
 std::optional<Eigen::VectorXcd> disk_map_by_vertex_source(const Surface& source, int* factorizations);
 
 }  // namespace beltrami

@@ -30,7 +30,8 @@ constexpr double kHeld = 1e-6;
 /// Where the images turn by more (radians) the target has a corner.
 constexpr double kCorner = 0.35;
 constexpr int kInteriorSteps = 60;
-constexpr double kInteriorTolerance = 1e-12;
+/// Of the gap, as a part of the largest force by the mean room: points are then exact to far less than kSettled.
+constexpr double kInteriorTolerance = 1e-9;
 /// The matrix is made definite by this part of its mean diagonal: a shift of all points changes no u.
 constexpr double kShift = 1e-10;
 /// So many of the edges may run backwards in the chart, which get at least this part of the mean of those around them.
@@ -69,39 +70,46 @@ Track track_of(const std::vector<Complex>& images) {
     return {curve, std::move(place), std::move(held)};
 }
 
-/// The weights w_ij of edges of a circle.
+/// The weights w_ij of edges of a circle: the logarithms of the cross ratios of their ends, as log(1 + x) of what keeps
+/// its digits where edges are parts of 1e-12 of the circle.
 class PairWeights {
   public:
-    explicit PairWeights(const Eigen::VectorXd& edges) : edges_(edges), begin_(edges.size()) {
-        double angle = 0;
-        for (Eigen::Index i = 0; i < edges.size(); angle += edges[i++]) begin_[i] = angle;
-    }
+    explicit PairWeights(const Eigen::VectorXd& edges) : edges_(edges) {}
     int size() const { return static_cast<int>(edges_.size()); }
-    double operator()(int i, int j) const {
-        const int apart = std::abs(i - j);
-        const double a = begin_[i], b = a + edges_[i], c = begin_[j], d = c + edges_[j];
-        if (std::min(apart, size() - apart) <= 1) {  // the integral diverges: by the midpoints
-            const double sine = half_sine(0.5 * (a + b) - 0.5 * (c + d));
-            return edges_[i] * edges_[j] / (4 * sine * sine);
+    /// Of the edge i and the one that comes so many edges after it, for 1, 2, … up to a number of them, in turn.
+    template <class Take>
+    void each(int i, int most, Take&& take) const {
+        const int n = size();
+        double between = 0;
+        for (int steps = 1; steps <= most; ++steps) {
+            const int j = (i + steps) % n;
+            take(j, std::min(steps, n - steps) <= 1 ? of_neighbours(i, j) : apart(i, j, between));
+            between += edges_[j];
         }
-        return std::max(0.0, std::log(half_sine(c - a) * half_sine(d - b) / (half_sine(c - b) * half_sine(d - a))));
     }
 
   private:
     static double half_sine(double angle) { return std::abs(std::sin(0.5 * angle)); }
+    /// The integral diverges: by the midpoints.
+    double of_neighbours(int i, int j) const {
+        const double sine = half_sine(0.5 * (edges_[i] + edges_[j]));
+        return edges_[i] * edges_[j] / (4 * sine * sine);
+    }
+    double apart(int i, int j, double between) const {
+        return std::log1p(half_sine(edges_[i]) * half_sine(edges_[j]) /
+                          (half_sine(between) * half_sine(between + edges_[i] + edges_[j])));
+    }
     const Eigen::VectorXd& edges_;
-    Eigen::VectorXd begin_;
 };
 
 double energy(const PairWeights& weights, const Eigen::VectorXd& u) {
     const int n = weights.size(), reach = n <= kMostFullEdges ? n / 2 : kBand;
     double sum = 0;
     for (int i = 0; i < n; ++i)
-        for (int step = 1; step <= reach; ++step) {
-            const int j = (i + step) % n;
-            if (2 * step == n && j < i) continue;  // opposite edges once
-            sum += weights(i, j) * (u[i] - u[j]) * (u[i] - u[j]);
-        }
+        weights.each(i, reach, [&](int j, double weight) {
+            if (2 * reach == n && j < i && (i + reach) % n == j) return;  // opposite edges once
+            sum += weight * (u[i] - u[j]) * (u[i] - u[j]);
+        });
     return sum;
 }
 
@@ -161,13 +169,16 @@ class SlackForm {
 
     SlackForm(int size, Pairs pairs, const PairWeights& weights)
         : size_(size), pairs_(std::move(pairs)), system_(system_of(size, pairs_)), hessian_(system_) {
-        for (const auto& [i, j] : pairs_) weights_.push_back(weights(i, j));
+        weights_.reserve(pairs_.size());
+        for (int i = 0; i < size; ++i)
+            weights.each(i, reach_of(size), [&](int, double weight) { weights_.push_back(weight); });
     }
 
+    static int reach_of(int size) { return std::min(kBand, (size - 1) / 2); }
     static Pairs pairs_of(int size) {
         Pairs pairs;
         for (int i = 0; i < size; ++i)
-            for (int step = 1; step <= std::min(kBand, (size - 1) / 2); ++step) pairs.push_back({i, (i + step) % size});
+            for (int step = 1; step <= reach_of(size); ++step) pairs.push_back({i, (i + step) % size});
         return pairs;
     }
     /// The ends of both edges; the one that neighbours share once.

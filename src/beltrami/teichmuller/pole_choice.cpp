@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <beltrami/plane/circle_fit.h>
 #include <beltrami/teichmuller/coarse_start.h>
 #include <beltrami/teichmuller/crowding.h>
 #include <beltrami/teichmuller/elongation.h>
@@ -35,6 +36,14 @@ constexpr double kPerhapsTight = 16, kFallsLikeSmooth = 1.5;
 /// Directions of held vertices that turn by less (radians) are kept.
 constexpr double kTurned = 0.02;
 
+/// Whether the outer loop goes to a circle.
+bool goes_to_circle(const std::vector<int>& loop, const Eigen::VectorXcd& map) {
+    std::vector<Complex> images;
+    images.reserve(loop.size());
+    for (const int v : loop) images.push_back(map[v]);
+    return loop.size() >= 3 && fit_circle(images).exact();
+}
+
 bool turns_image(const BoundaryCorner& corner) {
     return std::abs(corner.image_angle - std::numbers::pi) > kSharpImage;
 }
@@ -45,7 +54,9 @@ PoleChoice::PoleChoice(ExtremalProblem& problem, const BoundaryCondition& bounda
                        const std::vector<BoundaryCorner>& corners, const ExtremalOptions& options)
     : problem_(problem), boundary_(boundary), corners_(corners), options_(options) {}
 
+/// Corners of the image's outline. A circle has none, even where a coarse rim turns by as much at each of its vertices.
 std::ptrdiff_t PoleChoice::image_corners() const {
+    if (round_image_) return 0;
     return std::count_if(corners_.begin(), corners_.end(), turns_image);
 }
 
@@ -80,6 +91,7 @@ void PoleChoice::take_form_products() {
 HamiltonState PoleChoice::choose(ProblemChart charts, bool plain) {
     const Surface& source = problem_.source();
     const auto& loops = source.topology.boundary_loops;
+    round_image_ = loops.size() == 1 && goes_to_circle(loops[0], problem_.harmonic());
     HamiltonState state;
     instead_ = std::move(charts.instead);
     elongated_ = plain && loops.size() == 1 && boundary_.lines.empty() &&

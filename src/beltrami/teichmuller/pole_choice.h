@@ -56,7 +56,7 @@ class PoleChoice {
     std::optional<Chart> instead_;  // for φ that has singularities
     std::optional<Singularities> withheld_;
     double widest_bracket_ = kPolesNeeded;  // with which φ may do without them
-    bool smooth_ = true, elongated_ = false;
+    bool smooth_ = true, elongated_ = false, round_image_ = false;
     std::optional<TabulatedSpace> products_;
 };
 

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include <beltrami/charts/domain_chart.h>
+#include <beltrami/charts/fold_free_disk.h>
 #include <beltrami/plane/circle_fit.h>
 
 namespace beltrami {
@@ -59,6 +60,8 @@ ProblemChart chart_of_problem(const Surface& source, const BoundaryCondition& bo
         return {plane_chart(source), {}};
     const BeltramiSolver* dirichlet = nothing_inside(source, boundary) ? &solver : nullptr;
     ProblemChart result{shape ? shape->chart(outer_loop, dirichlet) : domain_chart(source, outer_loop, dirichlet), {}};
+    if (source.topology.boundary_loops.size() == 1 && !result.chart.exact)
+        result.chart = with_folds_opened(source, std::move(result.chart));
     if (!result.chart.exact && own_coordinates && far_from_conformal(source, result.chart)) {
         result.instead = plane_chart(source);
         result.instead->factorizations = result.chart.factorizations;

@@ -70,6 +70,31 @@ TEST(FoldFreeDisk, BoundariesThatRunBackwardsOrNotRound) {
     }
 }
 
+/// The chart for differentials: as it is where it is good, else with a rim in order and nothing turned over that
+/// counts.
+TEST(FoldFreeDisk, ChartsAreOpenedWhereTheyFold) {
+    const Surface surface(test::jittered_square(8));
+    const auto& loop = surface.topology.boundary_loops[0];
+    const Chart good = round_disk_chart(surface);
+    EXPECT_EQ(with_folds_opened(surface, good).vertices, good.vertices);
+    Eigen::VectorXcd backwards = good.vertices;
+    std::swap(backwards[loop[4]], backwards[loop[5]]);
+    for (const Eigen::VectorXcd& folded :
+         {backwards, Eigen::VectorXcd(0.5 * good.vertices.cwiseProduct(good.vertices))}) {
+        const Chart opened = with_folds_opened(surface, make_chart(surface, folded, false));
+        double turned = 0;
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            EXPECT_NEAR(std::abs(opened.vertices[loop[i]]), 1, 1e-9);
+            const double angle = std::arg(opened.vertices[loop[(i + 1) % loop.size()]] / opened.vertices[loop[i]]);
+            EXPECT_GT(angle, 0);
+            turned += angle;
+        }
+        EXPECT_NEAR(turned, 2 * std::acos(-1.0), 1e-9);
+        EXPECT_TRUE(distortion(surface.operators, opened.vertices).flipped.empty());
+        EXPECT_LT(unseen_part(surface, opened), 1e-4);
+    }
+}
+
 TEST(FoldFreeDisk, NoVertexInside) {
     Mesh mesh;
     mesh.positions.resize(5, 2);

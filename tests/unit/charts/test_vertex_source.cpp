@@ -44,6 +44,17 @@ TEST(VertexSource, ConvergesOnASurface) {
     }
 }
 
+/// Quads are as good as their triangles.
+TEST(VertexSource, TakesQuads) {
+    int factorizations = 0;
+    const Surface quads(test::quad_disk(20)), triangles(disk(20));
+    const auto g = disk_map_by_vertex_source(quads, &factorizations),
+               same = disk_map_by_vertex_source(triangles, &factorizations);
+    ASSERT_TRUE(g && same);
+    EXPECT_TRUE(distortion(quads.operators, *g).flipped.empty());
+    EXPECT_LT(mean_mu(quads, *g), mean_mu(triangles, *same));
+}
+
 /// A finger: the tip of a long strip is seen from its middle under an angle of e^{-π·length}.
 TEST(VertexSource, RimRunsForwardWhereItIsCrowded) {
     constexpr int across = 4, along = 60;

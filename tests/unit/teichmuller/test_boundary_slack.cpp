@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -9,6 +10,8 @@
 #include <beltrami/base/error.h>
 #include <beltrami/charts/boundary_values.h>
 #include <beltrami/charts/round_disk.h>
+#include <beltrami/generate/sphere.h>
+#include <beltrami/operators/distortion.h>
 #include <beltrami/teichmuller/extremal_map.h>
 
 #include "support/meshes.h"
@@ -171,6 +174,44 @@ TEST(BoundarySlack, ExtremalMapSaysWhatNoiseCosts) {
     EXPECT_LT(slack.K - 1, 1.1 * (smooth.K - 1));
     EXPECT_NEAR(slack.slack->K_without, rough.K, 0.01 * rough.K);
     EXPECT_NEAR(rough.noise->K, slack.K, 0.01 * slack.K);
+}
+
+/// A sphere without the faces around a vertex: on its rim of few edges every vertex turns the image as corners do. With
+/// enough slack the boundary values are the chart's own, and the map is conformal.
+TEST(BoundarySlack, OfASmallOpeningLeavesTheChartItself) {
+    const Mesh sphere = icosahedral_sphere(4);
+    Mesh open{sphere.positions, {}, {}};
+    for (int f = 0; f < sphere.face_count(); ++f)
+        if (std::ranges::find(sphere.faces[f], 700) == sphere.faces[f].end()) open.faces.add(sphere.faces[f]);
+    const Surface source(std::move(open));
+    ASSERT_LE(source.topology.boundary_loops[0].size(), 6U);
+    ExtremalOptions options;
+    options.slack = 1;
+    const BoundaryCondition boundary = boundary_to_disk(source, 0.5);
+    const ExtremalMap loose = extremal_map(source, boundary, options), tight = extremal_map(source, boundary);
+    ASSERT_TRUE(loose.slack);
+    EXPECT_LT(loose.slack->energy_after, 1e-6 * loose.slack->energy_before);
+    EXPECT_TRUE(loose.one_to_one());
+    const Distortion of_chart = distortion(source.operators, round_disk_chart(source).vertices);
+    EXPECT_NEAR(loose.distortion.mean, of_chart.mean, 0.02 * of_chart.mean);
+    EXPECT_GT(tight.distortion.mean, 2 * loose.distortion.mean);
+}
+
+/// Edges of 1e-13 of the chart beside others: their weights keep their digits.
+TEST(BoundarySlack, OfARimThatCrowds) {
+    Disk disk(21);
+    std::vector<double> angle(disk.rim().size() + 1, 0);
+    for (std::size_t i = 0; i < disk.rim().size(); ++i) {
+        const double depth = std::min(std::abs(static_cast<double>(i) - 60.0), 30.0) / 30;
+        angle[i + 1] = angle[i] + std::pow(1e-13, 1 - depth);
+    }
+    for (std::size_t i = 0; i < disk.rim().size(); ++i)
+        disk.chart.vertices[disk.rim()[i]] = on_circle(2 * kPi * angle[i] / angle.back());
+    const BoundaryCondition boundary = disk.values([](double t, int) { return on_circle(t); });
+    const SlackBoundary found = slacken(disk.source, disk.chart, boundary, 0.5);
+    EXPECT_TRUE(std::isfinite(found.energy_before));
+    EXPECT_LT(found.energy_after, found.energy_before);
+    EXPECT_LE(found.largest_move, 0.5 * (1 + 1e-6));
 }
 
 TEST(BoundarySlack, IsForDisksOnly) {
