@@ -88,6 +88,8 @@ SolutionBounds solution_bounds(const Solution& s, std::optional<int> subdivision
     }
     if (own.valid || sharpened) {
         result.bounds.push_back({Bound::Kind::reich_strebel, lower, Bound::Of::extremal, rigorous});
+        // Less than 1 says that φ has nothing to do with the map.
+        estimate = std::max(estimate, 1.0);
         result.bounds.push_back({Bound::Kind::reich_strebel_estimate, estimate, Bound::Of::extremal, false});
     }
     if (large) {

@@ -16,11 +16,14 @@ namespace {
 /// A corner is clear from this significance on (those of scans have 1 to 2.5), one of the image where that turns by so
 /// much (radians).
 constexpr double kClearCorner = 3, kSharpImage = 0.35;
-/// More corners than that are how the outline of a scan runs: of a coarse mesh that was divided, say. Each would get
-/// functions of its own, by which a map of 110 088 faces with 35 corners takes 60 harmonic ones, and one of half a
-/// bunny had not ended after 17 s. In the surface's metric the most significant ones get theirs then (of the 35: K 1.51
-/// with 12 and with 24, 1.44 with none, 1.60 with all), in the plane of the chart none.
-constexpr std::size_t kMostCorners = 24, kOfManyCorners = 12;
+/// Corners beyond this number are how the outline of a scan runs: of a coarse mesh that was divided, say. With all of
+/// their functions a map of 110 088 faces with 47 corners takes 39 harmonic ones. In the surface's metric each keeps
+/// its farthest poles then, those at more than this part of its reach, and of very many corners the most significant
+/// ones are taken (of the 47: K 1.502 above the bound 1.496, with all poles 1.494 above 1.481). In the plane of the
+/// chart, where poles would come to a map that has settled without them, there are none then: K rises to what
+/// quadrilaterals of the outline force.
+constexpr std::size_t kManyCorners = 24, kVeryManyCorners = 48, kMostCorners = 96;
+constexpr double kPartOfReach = 0.15, kLargePartOfReach = 0.3;
 /// Noise, as part of k, above which the plane of a chart is taken as the metric. Measured: smooth meshes have .002, a
 /// face of 34 144 triangles .015, where the surface's metric is more exact; scans whose maps it keeps from settling, or
 /// whose bracket the plane narrows, .04 to .3.
@@ -42,6 +45,16 @@ bool goes_to_circle(const std::vector<int>& loop, const Eigen::VectorXcd& map) {
     images.reserve(loop.size());
     for (const int v : loop) images.push_back(map[v]);
     return loop.size() >= 3 && fit_circle(images).exact();
+}
+
+/// Leaves so many functions at corners as a c-step can do with.
+Singularities thinned(Singularities singularities) {
+    std::vector<Singularities::Corner>& corners = singularities.corners;
+    if (corners.size() <= kManyCorners) return singularities;
+    if (corners.size() > kMostCorners) corners.resize(kMostCorners);
+    const double part = corners.size() > kVeryManyCorners ? kLargePartOfReach : kPartOfReach;
+    for (Singularities::Corner& corner : corners) corner.finest = std::max(corner.finest, part * corner.reach);
+    return singularities;
 }
 
 bool turns_image(const BoundaryCorner& corner) {
@@ -133,8 +146,7 @@ HamiltonState PoleChoice::choose(ProblemChart charts, bool plain) {
 Singularities PoleChoice::take_chart(Chart chart, const Eigen::VectorXcd& at) {
     const Surface& source = problem_.source();
     Singularities result = singularities_of(source, chart, boundary_, corners_, at);
-    if (problem_.is_disk_in_space() && image_corners() == 0 && result.corners.size() > kMostCorners)
-        result.corners.resize(kOfManyCorners);
+    if (problem_.is_disk_in_space() && image_corners() == 0) result = thinned(std::move(result));
     const bool on_boundary = result.empty() || result.only_corners();
     held_alone_ = held_vertices(source, chart, boundary_, at);
     problem_.set_chart(std::move(chart));
@@ -142,7 +154,7 @@ Singularities PoleChoice::take_chart(Chart chart, const Eigen::VectorXcd& at) {
         problem_.take_chart_metric();
         result = {};
         Singularities clear = singularities_of(source, problem_.chart(), boundary_, clear_corners(), at);
-        if (!clear.empty() && clear.corners.size() <= kMostCorners) withheld_ = std::move(clear);
+        if (!clear.empty() && clear.corners.size() <= kManyCorners) withheld_ = std::move(clear);
     }
     smooth_ = result.empty();
     return result;
