@@ -104,6 +104,16 @@ def bring_styles(site):
     for sheet in (site / "_static" / "styles").glob("*.css"):
         sheet.write_text(sheet.read_text().replace("/javascript/normalize.css/", ""))
     shutil.copy("/usr/share/javascript/normalize.css/normalize.css", site / "_static" / "styles")
+    follow_the_readers_scheme(site / "_static" / "styles" / "furo.css")
+
+
+def follow_the_readers_scheme(sheet):
+    """Debian's compiler of furo's style sheet loses the colours of the dark where nobody has chosen them by hand."""
+    text = sheet.read_text()
+    if "prefers-color-scheme" in text:
+        return
+    (colours,) = re.findall(r'body\[data-theme="dark"\] (\{\s*--color-[^}]*\})', text)
+    sheet.write_text(f'{text}\n@media not print {{ @media (prefers-color-scheme: dark) {{\n  body:not([data-theme="light"]) {colours}\n}} }}\n')
 
 
 class Page(html.parser.HTMLParser):

@@ -50,7 +50,8 @@ async function firstScreen() {
 async function screen(name, file, options, prepare) {
     const page = await open(name, options);
     await prepare(page);
-    await page.waitForTimeout(2500);
+    await page.waitForTimeout(200);
+    await page.waitForFunction(() => document.documentElement.dataset.pending === "0");
     await page.screenshot({ path: `${pictures}/${file}.png` });
     await page.close();
 }

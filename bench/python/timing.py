@@ -3,12 +3,10 @@
     PYTHONPATH=build/python /usr/bin/python3 bench/python/timing.py build/beltrami [FACES] [REPEATS]
 """
 
-import signal
 import statistics
 import subprocess
 import sys
 import tempfile
-import threading
 import time
 from pathlib import Path
 from typing import Callable
@@ -82,30 +80,5 @@ def reuse(V: np.ndarray, F: np.ndarray) -> None:  # type: ignore[type-arg]
     print(f"a distance again {again:.2f} s, of new surfaces {anew:.2f} s: {100 * (1 - again / anew):.0f} % saved")
 
 
-def interruptions(faces: int) -> None:
-    """How long a solve goes on after Ctrl-C, in harmonic maps, wherever it is."""
-    surface = bt.Surface(bt.disk(bt.disk_rings_for_triangles(faces), jitter=0.2))
-    boundary = bt.boundary_to_disk(surface, 0.9)
-    harmonic = seconds(lambda: bt.harmonic_baseline(surface, boundary))
-    whole = seconds(lambda: bt.extremal_map(surface, boundary))
-    late = []
-    for part in np.linspace(0.02, 0.95, 15):
-        sent = []
-
-        def interrupt() -> None:
-            sent.append(time.perf_counter())
-            signal.raise_signal(signal.SIGINT)
-
-        timer = threading.Timer(part * whole, interrupt)
-        timer.start()
-        try:
-            bt.extremal_map(surface, boundary)
-            timer.join()
-        except KeyboardInterrupt:
-            late.append((time.perf_counter() - sent[0]) / harmonic)
-    print(f"Ctrl-C: harmonic map {harmonic:.2f} s, extremal map {whole:.2f} s; stopped {len(late)} times, after at most {max(late):.2f} harmonic maps")
-
-
 if __name__ == "__main__":
-    interruptions(int(sys.argv[2]) if len(sys.argv) > 2 else 100000)
     main(sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 100000, int(sys.argv[3]) if len(sys.argv) > 3 else 5)

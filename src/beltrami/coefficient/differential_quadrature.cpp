@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include <beltrami/base/parallel.h>
@@ -40,6 +41,8 @@ constexpr int kMeanDepth = 3;
 constexpr int kPiecesPerChunk = 512;
 /// So many at a time, beyond the faces, or φ is no function that a mesh can resolve.
 constexpr std::size_t kMostPieces = 1 << 21;
+/// So many are evaluated before the next ones, which keeps memory small; whoever wants a stop is heard in between.
+constexpr int kPiecesAtOnce = 32 * kPiecesPerChunk;
 
 Place middle(const Place& a, const Place& b) {
     return {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
@@ -157,6 +160,45 @@ double visit_samples(const Operators& operators, const Chart& chart, const Eigen
     return 1;
 }
 
+/// φ at the points of the pieces begin to end.
+std::vector<FacePoint> evaluated(const Places& places, const DifferentialSpace& space,
+                                 const Eigen::VectorXcd& coefficients, const std::vector<Piece>& pieces, int begin,
+                                 int end) {
+    std::vector<FacePoint> points(static_cast<std::size_t>(kPoints) * (end - begin));
+    const auto evaluate = [&](int first, int last) {
+        ChartPoints at;
+        at.positions.resize(kPoints * (last - first));
+        at.derivatives.resize(at.positions.size());
+        const std::size_t offset = static_cast<std::size_t>(kPoints) * (first - begin);
+        for (int i = first; i < last; ++i)
+            for (int n = 0; n < kPoints; ++n) {
+                const int j = kPoints * (i - first) + n;
+                const Place place = inside(pieces[i], kRule[n]);
+                const Places::At here = places(pieces[i].sample, place);
+                at.positions[j] = here.position;
+                at.derivatives[j] = here.derivative;
+                points[offset + j] = {pieces[i].sample, place, 0.0, pieces[i].area * kRule[n].weight * here.area};
+            }
+        const Eigen::VectorXcd phi = space.combination(at, coefficients);
+        for (Eigen::Index j = 0; j < phi.size(); ++j) points[offset + static_cast<std::size_t>(j)].phi = phi[j];
+    };
+    for (int next = begin; next < end; next += kPiecesAtOnce)
+        parallel_for(next, std::min(end, next + kPiecesAtOnce), evaluate, kPiecesPerChunk);
+    return points;
+}
+
+/// The integral of |φ| over a piece, and whether φ varies on it by more than a part of its mean.
+std::pair<double, bool> spread(const FacePoint* own, double variation) {
+    Complex mean = 0;
+    double part = 0, most = 0;
+    for (int n = 0; n < kPoints; ++n) {
+        mean += own[n].phi / static_cast<double>(kPoints);
+        part += own[n].weight * std::sqrt(std::norm(own[n].phi));
+    }
+    for (int n = 0; n < kPoints; ++n) most = std::max(most, std::norm(own[n].phi - mean));
+    return {part, most > variation * variation * std::norm(mean)};
+}
+
 }  // namespace
 
 double visit_quadrature(const Surface& source, const Chart& chart, const DifferentialSpace& space,
@@ -169,52 +211,29 @@ double visit_quadrature(const Surface& source, const Chart& chart, const Differe
     double total = 0, unresolved = 0;
     for (int depth = 0; !pieces.empty(); ++depth) {
         const int count = static_cast<int>(pieces.size());
-        std::vector<FacePoint> points(static_cast<std::size_t>(kPoints) * pieces.size());
-        parallel_for(
-            0, count,
-            [&](int first, int last) {
-                ChartPoints at;
-                at.positions.resize(kPoints * (last - first));
-                at.derivatives.resize(at.positions.size());
-                for (int i = first; i < last; ++i)
-                    for (int n = 0; n < kPoints; ++n) {
-                        const Place place = inside(pieces[i], kRule[n]);
-                        const Places::At here = places(pieces[i].sample, place);
-                        at.positions[kPoints * (i - first) + n] = here.position;
-                        at.derivatives[kPoints * (i - first) + n] = here.derivative;
-                        points[static_cast<std::size_t>(kPoints) * i + n] = {
-                            pieces[i].sample, place, 0.0, pieces[i].area * kRule[n].weight * here.area};
-                    }
-                const Eigen::VectorXcd phi = space.combination(at, coefficients);
-                for (Eigen::Index j = 0; j < phi.size(); ++j)
-                    points[static_cast<std::size_t>(kPoints) * first + j].phi = phi[j];
-            },
-            kPiecesPerChunk);
-        if (depth <= options.least_depth) {
-            total = 0;
-            for (const FacePoint& p : points)
-                if (std::isfinite(std::norm(p.phi))) total += p.weight * std::sqrt(std::norm(p.phi));
-        }
         divided.clear();
-        for (int i = 0; i < count; ++i) {
-            const FacePoint* own = &points[static_cast<std::size_t>(kPoints) * i];
-            Complex mean = 0;
-            double part = 0, most = 0;
-            for (int n = 0; n < kPoints; ++n) {
-                mean += own[n].phi / static_cast<double>(kPoints);
-                part += own[n].weight * std::sqrt(std::norm(own[n].phi));
+        const int block = depth <= options.least_depth ? count : kPiecesAtOnce;  // all, to know the total
+        for (int begin = 0; begin < count; begin += block) {
+            const int end = std::min(count, begin + block);
+            const std::vector<FacePoint> points = evaluated(places, space, coefficients, pieces, begin, end);
+            if (depth <= options.least_depth) {
+                total = 0;
+                for (const FacePoint& p : points)
+                    if (std::isfinite(std::norm(p.phi))) total += p.weight * std::sqrt(std::norm(p.phi));
             }
-            for (int n = 0; n < kPoints; ++n) most = std::max(most, std::norm(own[n].phi - mean));
-            if (!std::isfinite(part)) return std::numeric_limits<double>::infinity();
-            const bool varies =
-                most > options.variation * options.variation * std::norm(mean) && part > options.tolerance * total;
-            const bool possible = depth < options.most_depth && divided.size() < kMostPieces;
-            if (depth < options.least_depth || (varies && possible)) {
-                divide(pieces[i], divided);
-                continue;
+            for (int i = begin; i < end; ++i) {
+                const FacePoint* own = &points[static_cast<std::size_t>(kPoints) * (i - begin)];
+                const auto [part, varies] = spread(own, options.variation);
+                if (!std::isfinite(part)) return std::numeric_limits<double>::infinity();
+                const bool matters = varies && part > options.tolerance * total;
+                const bool possible = depth < options.most_depth && divided.size() < kMostPieces;
+                if (depth < options.least_depth || (matters && possible)) {
+                    divide(pieces[i], divided);
+                    continue;
+                }
+                if (matters) unresolved += part;
+                for (int n = 0; n < kPoints; ++n) visit(own[n]);
             }
-            if (varies) unresolved += part;
-            for (int n = 0; n < kPoints; ++n) visit(own[n]);
         }
         pieces.swap(divided);
     }
