@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <string>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -47,17 +48,21 @@ class Embedding {
 
     int vertex_of(std::size_t curve, const PathNode& node);
     void occupy(std::size_t curve, int vertex);
+    int add_point(const Eigen::Vector3d& point, int triangle);
     void divide(const Polygon& polygon, std::vector<std::array<int, 2>> chords, int face);
     void triangulate(const Polygon& polygon, int face);
+    void divide_faces(const Mesh& mesh);
+    void divide_bridges();
     const Eigen::Vector3d& point(int vertex) const {
         return vertex < mesh_.vertex_count() ? mesh_.point(vertex) : crossings_[vertex - mesh_.vertex_count()];
     }
 
     CurveMesh mesh_;
     int old_;
-    std::vector<int> owner_;  ///< curve of every vertex, −1 of others
-    std::vector<Eigen::Vector3d> crossings_;
-    std::vector<MeshPoint> places_;
+    std::vector<int> owner_;                  ///< curve of every vertex, −1 of others
+    std::vector<Eigen::Vector3d> crossings_;  ///< with edges, and middles of bridges
+    std::vector<MeshPoint> given_, places_;   ///< of points given inside faces or edges, and of the other new ones
+    std::vector<int> triangle_of_;            ///< of mesh_, for every new face
     std::map<Edge, std::vector<Crossing>> on_edge_;
     std::map<int, std::vector<std::array<int, 2>>> chords_;  ///< of triangles
     MeshWithCurves result_;
@@ -73,6 +78,13 @@ void Embedding::occupy(std::size_t curve, int vertex) {
     owner_[vertex] = static_cast<int>(curve);
 }
 
+/// A vertex of the new mesh in a triangle.
+int Embedding::add_point(const Eigen::Vector3d& point, int triangle) {
+    crossings_.push_back(point);
+    places_.push_back(mesh_.place(triangle, point));
+    return mesh_.vertex_count() + static_cast<int>(crossings_.size()) - 1;
+}
+
 /// The new mesh's vertex of a node.
 int Embedding::vertex_of(std::size_t curve, const PathNode& node) {
     if (node.b < 0) return node.a;
@@ -82,9 +94,7 @@ int Embedding::vertex_of(std::size_t curve, const PathNode& node) {
     for (const Crossing& other : there)
         require(std::abs(other.t - t) > kApart, curve, "meets itself or another curve on an edge",
                 "curves must not touch: move one of them, or give more points", {node.a, node.b});
-    const int vertex = mesh_.vertex_count() + static_cast<int>(crossings_.size());
-    crossings_.push_back(node.point);
-    places_.push_back(mesh_.place(std::max(mesh_.left_of(node.a, node.b), mesh_.left_of(node.b, node.a)), node.point));
+    const int vertex = add_point(node.point, std::max(mesh_.left_of(node.a, node.b), mesh_.left_of(node.b, node.a)));
     there.insert(std::upper_bound(there.begin(), there.end(), t,
                                   [](double value, const Crossing& crossing) { return value < crossing.t; }),
                  {t, vertex});
@@ -197,18 +207,62 @@ void Embedding::triangulate(const Polygon& polygon, int face) {
     }
 }
 
+/// Divides edges that join two vertices of one curve without running along it, in the middle.
+void Embedding::divide_bridges() {
+    owner_.resize(static_cast<std::size_t>(mesh_.vertex_count()) + crossings_.size(), -1);
+    std::vector<int> at(owner_.size(), 0);
+    for (const MeshWithCurves::Chain& chain : result_.curves)
+        for (std::size_t i = 0; i < chain.vertices.size(); ++i) at[chain.vertices[i]] = static_cast<int>(i);
+    const auto bridges = [&](int a, int b) {
+        if (owner_[a] < 0 || owner_[a] != owner_[b]) return false;
+        const MeshWithCurves::Chain& chain = result_.curves[owner_[a]];
+        const int apart = std::abs(at[a] - at[b]);
+        return apart > 1 && !(chain.closed && apart + 1 == static_cast<int>(chain.vertices.size()));
+    };
+    FaceList before;
+    std::swap(before, result_.mesh.faces);
+    const std::vector<int> face_of = std::exchange(result_.faces, {});
+    const std::vector<int> triangle_of = std::exchange(triangle_of_, {});
+    std::map<Edge, int> middles;
+    for (int f = 0; f < before.size(); ++f) {
+        Polygon polygon;
+        for (int i = 0; i < before.degree(f); ++i) {
+            const int a = before[f][i], b = before[f][(i + 1) % before.degree(f)];
+            polygon.push_back(a);
+            if (!bridges(a, b)) continue;
+            const auto [it, is_new] = middles.emplace(Edge{std::min(a, b), std::max(a, b)}, 0);
+            if (is_new) it->second = add_point(0.5 * (point(a) + point(b)), triangle_of[f]);
+            polygon.push_back(it->second);
+        }
+        if (static_cast<int>(polygon.size()) > before.degree(f)) {
+            triangulate(polygon, face_of[f]);
+        } else {
+            result_.mesh.faces.add(before[f]);
+            result_.faces.push_back(face_of[f]);
+        }
+    }
+}
+
 MeshWithCurves Embedding::finish(const Mesh& mesh) {
-    const int inserted = mesh_.vertex_count();
-    result_.mesh.positions.resize(inserted + static_cast<Eigen::Index>(crossings_.size()), 3);
+    divide_faces(mesh);
+    divide_bridges();
+    result_.mesh.positions.resize(mesh_.vertex_count() + static_cast<Eigen::Index>(crossings_.size()), 3);
     for (Eigen::Index v = 0; v < result_.mesh.positions.rows(); ++v)
         result_.mesh.positions.row(v) = point(static_cast<int>(v));
-    owner_.resize(static_cast<std::size_t>(result_.mesh.positions.rows()), -1);
+    result_.places = std::move(given_);
+    result_.places.insert(result_.places.end(), places_.begin(), places_.end());
+    return std::move(result_);
+}
+
+/// Divides the faces that curves cross along them.
+void Embedding::divide_faces(const Mesh& mesh) {
+    owner_.resize(static_cast<std::size_t>(mesh_.vertex_count()) + crossings_.size(), -1);
     // Faces stay as they are unless one of their triangles has more corners now than it had, or is one of several.
     std::vector<std::vector<int>> triangles_of(static_cast<std::size_t>(mesh.face_count()));
     for (std::size_t t = 0; t < mesh_.triangles().size(); ++t)
         triangles_of[mesh_.face_of(static_cast<int>(t))].push_back(static_cast<int>(t));
     std::vector<Polygon> polygons;
-    std::vector<MeshPoint> given(static_cast<std::size_t>(inserted - old_));
+    given_.resize(static_cast<std::size_t>(mesh_.vertex_count() - old_));
     for (int f = 0; f < mesh.face_count(); ++f) {
         polygons.clear();
         bool touched = triangles_of[f].size() != mesh.faces[f].size() - 2;
@@ -218,7 +272,7 @@ MeshWithCurves Embedding::finish(const Mesh& mesh) {
             for (int i = 0; i < 3; ++i) {
                 const int a = corners[i], b = corners[(i + 1) % 3];
                 polygon.push_back(a);
-                if (a >= old_) given[a - old_] = mesh_.place(t, mesh_.point(a));
+                if (a >= old_) given_[a - old_] = mesh_.place(t, mesh_.point(a));
                 const auto there = on_edge_.find({std::min(a, b), std::max(a, b)});
                 if (there == on_edge_.end()) continue;
                 std::vector<int> between;
@@ -236,16 +290,15 @@ MeshWithCurves Embedding::finish(const Mesh& mesh) {
         if (!touched) {
             result_.mesh.faces.add(mesh.faces[f]);
             result_.faces.push_back(f);
+            triangle_of_.push_back(triangles_of[f][0]);
             continue;
         }
         for (std::size_t i = 0; i < polygons.size(); ++i) {
             const auto chords = chords_.find(triangles_of[f][i]);
             divide(polygons[i], chords == chords_.end() ? std::vector<std::array<int, 2>>{} : chords->second, f);
+            triangle_of_.resize(result_.faces.size(), triangles_of[f][i]);
         }
     }
-    result_.places = std::move(given);
-    result_.places.insert(result_.places.end(), places_.begin(), places_.end());
-    return std::move(result_);
 }
 
 }  // namespace

@@ -32,7 +32,9 @@ struct MeshWithCurves {
 };
 
 /// Joins the points of every curve by geodesics (straight_path.h) and divides the faces that they cross, so that they
-/// run along edges. Faces that no curve meets are kept.
+/// run along edges. Edges that join two vertices of one curve beside it are divided in the middle: where the curve
+/// bends here and its image runs straight, such an edge would lie on the image and flip a face. Faces that no curve
+/// meets are kept.
 /// @param mesh that passes the diagnosis; texture coordinates are dropped
 /// @throw Error bad_boundary naming the curve: fewer than two points, or three of a closed one; points that coincide,
 ///        between which no way leads, or that do not exist; a curve that meets itself or another one

@@ -7,6 +7,7 @@
 #include <beltrami/base/disjoint_sets.h>
 #include <beltrami/base/error.h>
 #include <beltrami/flow/averaged_patches.h>
+#include <beltrami/flow/unfolded_patches.h>
 #include <beltrami/solve/target_step.h>
 
 namespace beltrami {
@@ -66,6 +67,7 @@ class Leading {
         for (const int v : leading_.fixed) map_.points[v] = to_.points[v];
         map_.parameters = to_.parameters;
         result.flips = average_flipped_patches(source_, motion_->target(), held_, map_);
+        if (result.flips > 0) result.flips = unfold_flipped_patches(source_, motion_->target(), held_, map_);
         result.map = std::move(map_);
         return result;
     }

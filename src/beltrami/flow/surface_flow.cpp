@@ -13,6 +13,7 @@
 #include <beltrami/base/parallel.h>
 #include <beltrami/flow/averaged_patches.h>
 #include <beltrami/flow/coefficient_error_sum.h>
+#include <beltrami/flow/unfolded_patches.h>
 #include <beltrami/solve/image_frame.h>
 #include <beltrami/solve/quasiconformal_map.h>
 #include <beltrami/solve/target_step.h>
@@ -26,6 +27,7 @@ constexpr double kLongestMotion = 0.2;  // of the image's diameter
 constexpr double kWhole = 0.4;          // step length from which a small decrease means that the energy has settled
 constexpr double kLongStep = 0.2, kMuchLess = 0.9;  // of perturbations that are gone on with, and of the error
 constexpr double kHeldUp = 1e-3;                    // step length below which residual steps have come to an end
+constexpr int kMostHeldUp = 4;                      // steps in a row that are none, each damped more
 constexpr int kIdleSteps = 8;                       // that together lower the energy by less than one has to
 /// A step below this part of the image's size that lowers nothing is rounding: the energy is flat there.
 constexpr double kRounding = 1e-6;
@@ -96,8 +98,12 @@ class Flow {
                                                    std::to_string(flips_) + " samples are flipped");
             if (scheme != of_energy) energy = energy_of(of_energy = scheme);
             const TargetStep::Taken taken = take(*energy, scheme, mu);
-            if (!ended(*energy, taken) || opens_patches() || scheme_.turns(flips_)) continue;
-            if (taken.length > 0 || taken.wanted < kRounding * size_) result_.termination = Termination::converged;
+            const End end = end_after(*energy, taken);
+            if (end == End::none || opens_patches() || scheme_.turns(flips_)) continue;
+            if (end == End::settled && flips_ == 0)
+                result_.termination = Termination::converged;
+            else if (taken.length > 0 || end == End::settled)
+                result_.termination = Termination::unconfirmed;
             break;
         }
         return finish(mu);
@@ -116,6 +122,7 @@ class Flow {
         ++result_.iterations;
         if (motion_.unheld() && taken.length > 0) centre();
         flips_ = flipped_samples(source_.operators, result_.map);
+        held_up_ = taken.length > 0 ? 0 : held_up_ + 1;
         if (energy.descends())
             fallen_.push_back(taken.fallen);
         else
@@ -133,20 +140,31 @@ class Flow {
         return taken;
     }
 
-    /// Where steps leave flips that patches of means do not: goes on with fewer.
+    /// Where steps leave flips that patches of means or unfolded ones do not: goes on with fewer.
     bool opens_patches() {
         if (options_.scheme != FlowScheme::automatic || flips_ == 0) return false;
         std::vector<char> held;
         for (const signed char unknowns : motion_.unknowns()) held.push_back(unknowns < 2);
-        const int left = average_flipped_patches(source_, motion_.target(), held, result_.map);
+        int left = average_flipped_patches(source_, motion_.target(), held, result_.map);
+        if (left == flips_) left = unfold_flipped_patches(source_, motion_.target(), held, result_.map);
         return std::exchange(flips_, left) > left;
     }
 
-    bool ended(const TargetEnergy& energy, const TargetStep::Taken& taken) const {
-        if (taken.length == 0 || (flips_ > 0 && energy.descends() && taken.length < kHeldUp)) return true;
-        if (taken.movement < options_.tolerance * size_ || idle()) return true;
-        if (taken.length < kWhole || taken.damped) return false;
-        return (energy.descends() && taken.fallen < options_.least_decrease) || error_settled();
+    /// How steps have come to an end.
+    enum class End { none, settled, idle, held_up };
+
+    End end_after(const TargetEnergy& energy, const TargetStep::Taken& taken) const {
+        if (taken.length == 0) {
+            if (taken.wanted < kRounding * size_) return End::settled;
+            return energy.descends() && flips_ == 0 && held_up_ < kMostHeldUp ? End::none : End::held_up;
+        }
+        if (flips_ > 0 && energy.descends() && taken.length < kHeldUp) return End::held_up;
+        const bool whole = taken.length >= kWhole && !taken.damped;
+        if (taken.movement < options_.tolerance * size_) return whole ? End::settled : End::idle;
+        if (idle()) return End::idle;
+        if (!whole) return End::none;
+        return (energy.descends() && taken.fallen < options_.least_decrease) || error_settled() ? End::settled
+                                                                                                : End::none;
     }
 
     /// Whether the last steps, which were cut short or damped, have together done no more than one has to.
@@ -188,6 +206,10 @@ class Flow {
             result_.warnings.push_back(
                 {WarningKind::iteration_limit,
                  "stopped after " + std::to_string(result_.iterations) + " steps before the map settled"});
+        if (result_.termination == Termination::unconfirmed && result_.distortion.flipped.empty())
+            result_.warnings.push_back(
+                {WarningKind::iteration_limit,
+                 "the last steps were cut short and came to nothing: the map may not be settled"});
         return std::move(result_);
     }
 
@@ -200,6 +222,7 @@ class Flow {
     SurfaceFlowMap result_;
     std::vector<double> fallen_;  ///< by which parts the steps since the last perturbation lowered their energies
     int flips_ = 0;
+    int held_up_ = 0;  ///< steps in a row that were none
     double size_ = 1;
 };
 

@@ -52,7 +52,7 @@ struct SurfaceFlowMap {
     CoefficientError error;  ///< from the coefficient that was wanted
     bool fits = true;        ///< coefficient_fits(error); true where none was wanted
     std::vector<SurfaceFlowIteration> history;
-    Termination termination = Termination::converged;
+    Termination termination = Termination::converged;  ///< unconfirmed: short steps came to nothing, or flips stay
     int iterations = 0;
     int factorizations = 0;
     Warnings warnings;

@@ -2,19 +2,28 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include <beltrami/base/error.h>
 #include <beltrami/charts/chart_places.h>
 #include <beltrami/curves/cut_along.h>
+#include <beltrami/homotopy/twist.h>
 #include <beltrami/mesh/submesh.h>
+#include <beltrami/operators/distortion.h>
+#include <beltrami/solve/dirichlet_solver.h>
 #include <beltrami/unfold/convex_combination_map.h>
+#include <beltrami/unfold/fold_free.h>
 
 namespace beltrami {
 
 namespace {
 
+constexpr double kUnfolded = 1e-3;  // tolerance of opened folds
+constexpr int kMostUnfoldingSteps = 200;
 constexpr double kAnywhere = 2;  // diameters: folds may lead into the holes of a chart
 
 /// A surface cut open, and its parts.
@@ -60,10 +69,58 @@ std::vector<int> partners(const Parts& source, const Parts& target, std::size_t 
     return partner;
 }
 
-Eigen::VectorXcd map_of_part(const Surface& source, const BoundaryCondition& boundary) {
+/// With its folds opened, as far as that goes.
+Eigen::VectorXcd opened(const Surface& source, Eigen::VectorXcd map) {
+    if (distortion(source.operators, map).flipped.empty()) return map;
+    FoldFreeOptions options;
+    options.tolerance = kUnfolded;
+    options.max_iterations = kMostUnfoldingSteps;
+    return fold_free_map(source, dirichlet_freedoms(source), Eigen::VectorXcd::Zero(source.operators.sample_count()),
+                         map, options)
+        .map;
+}
+
+/// Of a part with holes: what its loops' images leave open is how often it turns around each of them. The map that
+/// turns least, of rings the one that is least distorted.
+std::optional<Eigen::VectorXcd> map_with_holes(const Surface& source, const BoundaryCondition& boundary,
+                                               int outer_loop) {
+    const auto loops = source.topology.boundary_loops.size();
+    const Eigen::VectorXcd own = circle_domain_chart(source, outer_loop).chart.vertices;
+    std::optional<Eigen::VectorXcd> best;
+    std::size_t fewest = 0;
+    double least = 0;
+    for (const int turns : loops == 2 ? std::vector{0, -1, 1} : std::vector{0}) {
+        try {
+            Eigen::VectorXcd map =
+                opened(source, start_in_class(source, own, outer_loop, boundary, std::vector<int>(loops, turns)).map);
+            const Distortion d = distortion(source.operators, map);
+            if (best && std::pair(d.flipped.size(), d.mean) >= std::pair(fewest, least)) continue;
+            fewest = d.flipped.size();
+            least = d.mean;
+            best = std::move(map);
+        } catch (const Error& error) {
+            if (error.cause() != Cause::not_solved && error.cause() != Cause::bad_boundary) throw;
+        }
+    }
+    return best;
+}
+
+/// @param outer_loop whose image is the unit circle
+Eigen::VectorXcd map_of_part(const Surface& source, const BoundaryCondition& boundary, int outer_loop) {
     int factorizations = 0;
     if (const auto map = convex_embedding(source, boundary, factorizations)) return *map;
+    if (source.topology.boundary_loops.size() > 1)
+        if (const auto map = map_with_holes(source, boundary, outer_loop)) return *map;
     return convex_combination_map(source, boundary, ConvexWeights::mean_value);
+}
+
+/// The loop on which a vertex lies.
+int loop_with(const Topology& topology, int vertex) {
+    for (std::size_t l = 0; l < topology.boundary_loops.size(); ++l) {
+        const std::vector<int>& loop = topology.boundary_loops[l];
+        if (std::find(loop.begin(), loop.end(), vertex) != loop.end()) return static_cast<int>(l);
+    }
+    return 0;
 }
 
 }  // namespace
@@ -121,8 +178,13 @@ std::vector<MeshPoint> map_cut_along_curves(const MeshWithCurves& source, const 
                     images[from.index[mine[i]]] = (1 - part) * a + part * b;
                 }
             }
-        for (const auto& [vertex, image] : images) boundary.pin(vertex, image);
-        const Eigen::VectorXcd map = map_of_part(here, boundary);
+        int outer = -1;  // a vertex that goes to the unit circle, the outermost of all
+        double farthest = 0;
+        for (const auto& [vertex, image] : images) {
+            boundary.pin(vertex, image);
+            if (std::abs(image) > farthest) farthest = std::abs(image), outer = vertex;
+        }
+        const Eigen::VectorXcd map = map_of_part(here, boundary, loop_with(here.topology, outer));
         const std::vector<MeshPoint> found =
             locate_in_chart(there, chart.chart.vertices, std::vector<Complex>(map.begin(), map.end()), kAnywhere);
         for (std::size_t i = 0; i < found.size(); ++i) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -11,6 +12,7 @@
 
 #include <beltrami/base/error.h>
 #include <beltrami/flow/averaged_patches.h>
+#include <beltrami/flow/unfolded_patches.h>
 #include <beltrami/operators/frames.h>
 #include <beltrami/registration/curve_start.h>
 #include <beltrami/sphere/unit_sphere.h>
@@ -20,6 +22,7 @@ namespace beltrami {
 
 namespace {
 
+constexpr double kNear = 0.02;   // of a partner's length: images of a curve that lie on it already
 constexpr double kTouch = 1e-9;  // of lengths, below which a point counts as on a segment
 
 PartnerCurves on_mesh(const Mesh& mesh, std::span<const CurveOnto> curves) {
@@ -134,6 +137,31 @@ double turn(const Mesh& mesh, int face, const Eigen::Vector3d& from, const Eigen
     return std::atan2(from.cross(to).dot(up), from.dot(to));
 }
 
+/// The arc lengths of the points of a partner that are nearest to a curve's vertices, where these lie near it already
+/// and in its order; else nothing.
+std::optional<std::vector<double>> places_along(const SlideCurve& partner, const MeshWithCurves::Chain& chain,
+                                                const Positions& images) {
+    std::vector<double> places;
+    for (const int v : chain.vertices) {
+        const Eigen::Vector3d image = images.row(v);
+        places.push_back(partner.nearest(image));
+        if ((partner.point(places.back()) - image).norm() > kNear * partner.length()) return {};
+    }
+    if (!chain.closed) {
+        places.front() = 0;
+        places.back() = partner.length();
+    }
+    double around = 0;
+    for (std::size_t i = chain.closed ? 0 : 1; i < places.size(); ++i) {
+        double way = places[i] - places[i == 0 ? places.size() - 1 : i - 1];
+        if (chain.closed && way < 0) way += partner.length();
+        if (!(way > 0)) return {};
+        around += way;
+    }
+    if (around > 1.5 * partner.length()) return {};
+    return places;
+}
+
 }  // namespace
 
 PartnerCurves partner_curves(const Target& target, std::span<const CurveOnto> curves) {
@@ -158,18 +186,25 @@ void hold_curves(const MeshWithCurves& source, const PartnerCurves& partners, st
     for (std::size_t c = 0; c < source.curves.size(); ++c) {
         const MeshWithCurves::Chain &chain = source.curves[c], &partner = partners.chains[c];
         const auto curve = static_cast<int>(constraints.curves.size());
+        std::optional<std::vector<double>> places;
         if (slides[c]) {
             const Positions points = partners.points(partner.vertices, Eigen::all);
             if (target.mesh())
                 constraints.curves.push_back(std::make_shared<PolylineCurve>(points, partner.closed));
             else
                 constraints.curves.push_back(std::make_shared<CurveOnTarget>(target, points, partner.closed));
+            places = places_along(*constraints.curves.back(), chain, images);
         }
         for (std::size_t i = 0; i < chain.vertices.size(); ++i) {
             const bool end = !chain.closed && (i == 0 || i + 1 == chain.vertices.size());
-            const auto [segment, part] = partner_place(chain, i, partner);
-            const int a = partner.vertices[segment], b = partner.vertices[(segment + 1) % partner.vertices.size()];
-            const Eigen::Vector3d there = (1 - part) * partners.points.row(a) + part * partners.points.row(b);
+            Eigen::Vector3d there;
+            if (places) {
+                there = constraints.curves.back()->point((*places)[i]);
+            } else {
+                const auto [segment, part] = partner_place(chain, i, partner);
+                const int a = partner.vertices[segment], b = partner.vertices[(segment + 1) % partner.vertices.size()];
+                there = (1 - part) * partners.points.row(a) + part * partners.points.row(b);
+            }
             images.row(chain.vertices[i]) = target.nearest(there).position.transpose();
             if (slides[c] && !end)
                 constraints.sliding.push_back({chain.vertices[i], curve});
@@ -247,7 +282,7 @@ TargetMap own_part(const Surface& source, const Target& target, const TargetCons
     };
     for (const int v : constraints.fixed) hold(v);
     for (const TargetConstraints::Slide& slide : constraints.sliding) hold(slide.vertex);
-    average_flipped_patches(source, target, held, result);
+    if (average_flipped_patches(source, target, held, result) > 0) unfold_flipped_patches(source, target, held, result);
     return result;
 }
 

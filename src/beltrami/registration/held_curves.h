@@ -29,7 +29,8 @@ struct PartnerCurves {
 /// @throw Error bad_boundary as mesh_with_curves and straight_way, and where numbers of points differ
 PartnerCurves partner_curves(const Target& target, std::span<const CurveOnto> curves);
 
-/// Holds the vertices of curves: their places go to @p images, they themselves to @p constraints.
+/// Holds the vertices of curves: their places go to @p images, they themselves to @p constraints. Curves that slide
+/// and lie near their partners in @p images already go to the nearest points there, others to the same parts of arcs.
 /// @param slides  for every curve
 /// @param target  on which partners lie; kept by reference by curves along which something slides
 /// @param images  #V×3 of the mesh with curves; those of curves are changed
@@ -61,7 +62,7 @@ Eigen::VectorXcd mu_along_curves(const Surface& source, const MeshWithCurves& di
 
 /// The part of a map of the surface with curves that is one of its own vertices, its faces whole and straight. Where a
 /// curve bends inside a face that may flip it: vertices around such faces that nothing holds go to the means of their
-/// neighbours, as far as that opens them.
+/// neighbours or are unfolded in patches, as far as that opens them.
 /// @param constraints of the surface with curves
 /// @param map         of it
 TargetMap own_part(const Surface& source, const Target& target, const TargetConstraints& constraints,

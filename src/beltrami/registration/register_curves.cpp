@@ -2,20 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include <Eigen/Geometry>
 
 #include <beltrami/base/error.h>
 #include <beltrami/flow/led_map.h>
+#include <beltrami/flow/unfolded_patches.h>
 #include <beltrami/registration/curve_start.h>
 #include <beltrami/registration/held_curves.h>
 #include <beltrami/registration/register_open.h>
 #include <beltrami/registration/target_image.h>
+#include <beltrami/registration/ways_to_cut.h>
 #include <beltrami/solve/target_step.h>
+#include <beltrami/sphere/moebius_fit.h>
 #include <beltrami/teichmuller/extremal_sphere.h>
 #include <beltrami/unfold/fold_free.h>
 #include <beltrami/unfold/sphere_faces.h>
@@ -24,6 +29,8 @@
 namespace beltrami {
 
 namespace {
+
+constexpr std::size_t kMostTried = 2;  // of the starts in a group
 
 void require_pairs(std::span<const SurfaceLandmark> landmarks, std::span<const CurvePair> curves) {
     for (const SurfaceLandmark& landmark : landmarks)
@@ -38,79 +45,6 @@ void require_pairs(std::span<const SurfaceLandmark> landmarks, std::span<const C
                             " points and its partner " + std::to_string(curves[c].target.points.size()) +
                             ", or one of them is closed and the other is not",
                         "give as many points of the partner, in the same order");
-}
-
-MeshWithCurves of_surface(const char* name, const Mesh& mesh, const std::vector<CurveThrough>& curves) {
-    try {
-        return mesh_with_curves(mesh, curves);
-    } catch (const Error& error) {
-        throw Error(error.cause(), std::string("the ") + name + ": " + error.what(), {}, error.where());
-    }
-}
-
-/// Both meshes with their curves, and what they are cut along for the start.
-struct Curved {
-    MeshWithCurves source, target, cut_source, cut_target;
-};
-
-/// Open curves one after the other as one, joined from end to beginning, and the closed ones.
-/// @param order of the open ones
-std::vector<CurveThrough> joined(const std::vector<CurveThrough>& curves, const std::vector<std::size_t>& order) {
-    std::vector<CurveThrough> result{{}};
-    for (const std::size_t c : order)
-        result[0].points.insert(result[0].points.end(), curves[c].points.begin(), curves[c].points.end());
-    for (const CurveThrough& curve : curves)
-        if (curve.closed) result.push_back(curve);
-    return result;
-}
-
-/// The curves of a mesh that was made with joined ones.
-MeshWithCurves taken_apart(const MeshWithCurves& whole, const std::vector<CurveThrough>& curves,
-                           const std::vector<std::size_t>& order) {
-    MeshWithCurves result = whole;
-    result.curves.assign(curves.size(), {});
-    std::size_t first = 0, next_closed = 1;
-    for (std::size_t c = 0; c < curves.size(); ++c)
-        if (curves[c].closed) result.curves[c] = whole.curves[next_closed++];
-    for (const std::size_t c : order) {
-        const MeshWithCurves::Chain& chain = whole.curves[0];
-        const std::size_t last = first + curves[c].points.size() - 1;
-        const int from = chain.given[first], to = chain.given[last];
-        MeshWithCurves::Chain& part = result.curves[c];
-        for (int i = from; i <= to; ++i) {
-            part.vertices.push_back(chain.vertices[i]);
-            part.lengths.push_back(chain.lengths[i] - chain.lengths[from]);
-        }
-        for (std::size_t g = first; g <= last; ++g) part.given.push_back(chain.given[g] - from);
-        part.length = part.lengths.back();
-        first = last + 1;
-    }
-    return result;
-}
-
-/// Ways to cut the two surfaces: several open curves joined, so that the surfaces come apart into disks, beginning with
-/// each of them in turn, where geodesics join them; second, or first where those do not, along the curves alone.
-std::vector<Curved> ways_to_cut(const Mesh& source, const Mesh& target, const std::vector<CurveThrough>& here,
-                                const std::vector<CurveThrough>& there) {
-    std::vector<std::size_t> order;
-    for (std::size_t c = 0; c < here.size(); ++c)
-        if (!here[c].closed) order.push_back(c);
-    const MeshWithCurves a = of_surface("source", source, here), b = of_surface("target", target, there);
-    std::vector<Curved> ways;
-    for (std::size_t turn = 0; order.size() > 1 && turn < order.size(); ++turn) {
-        try {
-            MeshWithCurves whole_a = mesh_with_curves(source, joined(here, order)),
-                           whole_b = mesh_with_curves(target, joined(there, order));
-            ways.push_back({taken_apart(whole_a, here, order), taken_apart(whole_b, there, order), std::move(whole_a),
-                            std::move(whole_b)});
-        } catch (const Error& error) {
-            if (error.cause() != Cause::bad_boundary) throw;
-        }
-        std::rotate(order.begin(), order.begin() + 1, order.end());
-        if (turn == 0) ways.push_back({a, b, a, b});
-    }
-    if (ways.empty()) ways.push_back({a, b, a, b});
-    return ways;
 }
 
 /// The target with its curves, and what the source's have to keep to.
@@ -187,13 +121,16 @@ Positions open_start(const Surface& source, const Surface& target, const Wanted&
     return wanted.model().at(wanted.model().points(), found.places);
 }
 
+std::vector<int> held_by(const TargetConstraints& constraints) {
+    std::vector<int> held = constraints.fixed;
+    for (const auto& slide : constraints.sliding) held.push_back(slide.vertex);
+    return held;
+}
+
 /// Turns flipped faces on the sphere up, as far as that goes.
 void turn_up(const Surface& source, const TargetConstraints& constraints, Positions& start) {
     const SphereFaces faces(source);
-    if (faces.flipped(start).empty()) return;
-    std::vector<int> held = constraints.fixed;
-    for (const auto& slide : constraints.sliding) held.push_back(slide.vertex);
-    repair_sphere_map(source, faces, start, held);
+    if (!faces.flipped(start).empty()) repair_sphere_map(source, faces, start, held_by(constraints));
 }
 
 void open_folds(const Surface& source, const TargetConstraints& constraints, Positions& start) {
@@ -246,13 +183,15 @@ struct Ready {
     Positions unheld;  ///< the start without curves and landmarks at their places
     TargetMap begin;
     std::vector<int> start_flipped;
+    int flips = 0;    ///< of begin, where folds have been opened as far as that goes, and …
+    double mean = 0;  ///< … its mean |μ|
 };
 
 Ready made_ready(const Surface& source, const Surface& target, const TargetImage& model, Curved curved,
                  std::span<const SurfaceLandmark> landmarks, std::span<const CurvePair> curves,
                  const CurveRegistrationOptions& options) {
     const bool closed = source.topology.boundary_loops.empty();
-    Ready ready{std::move(curved.source), {model, std::move(curved.target), {}, {}}, {}, {}, {}};
+    Ready ready{std::move(curved.source), {model, std::move(curved.target), {}, {}}, {}, {}, {}, 0, 0};
     Wanted& wanted = ready.wanted;
     wanted.points = model.with_places(model.points(), wanted.target.places);
     Positions start = !options.start.empty() ? model.at(model.points(), options.start)
@@ -274,14 +213,124 @@ Ready made_ready(const Surface& source, const Surface& target, const TargetImage
         open_folds(with_curves, wanted.constraints, held);
     if (!closed) slide_boundary(wanted.constraints, with_curves, model.target(), held);
     ready.begin = target_map(with_curves, model.target(), wanted.constraints, held);
+    std::vector<char> at_rest(static_cast<std::size_t>(with_curves.mesh.vertex_count()), 0);
+    for (const int v : held_by(wanted.constraints)) at_rest[v] = 1;
+    ready.flips = unfold_flipped_patches(with_curves, model.target(), at_rest, ready.begin);
+    ready.mean =
+        distortion(with_curves.operators, positions_of(ready.begin.points), normals_of(ready.begin.points)).mean;
     return ready;
 }
 
-Ready led(const Surface& source, Ready from, std::span<const SurfaceLandmark> landmarks,
-          std::span<const CurvePair> curves, const CurveRegistrationOptions& options) {
-    from.begin = led_start(source, Surface(from.source.mesh), from.wanted, from.source, std::move(from.begin),
-                           from.unheld, landmarks, curves, options);
+/// The source's conformal sphere, laid on the target's by the Möbius map that takes given points of curves nearest to
+/// their partners.
+Positions fitted_sphere(const Surface& source, const TargetImage& model, std::span<const CurvePair> curves,
+                        const SphereMapOptions& options) {
+    std::vector<int> vertices;
+    std::vector<MeshPoint> places;
+    for (const CurvePair& pair : curves)
+        for (std::size_t i = 0; i < pair.source.points.size(); ++i) {
+            const int vertex = nearest_vertex(pair.source.points[i]);
+            if (std::find(vertices.begin(), vertices.end(), vertex) != vertices.end()) continue;
+            vertices.push_back(vertex);
+            places.push_back(pair.target.points[i]);
+        }
+    return moebius_fitted(sphere_map(source, options).positions, vertices, model.at(model.points(), places));
+}
+
+/// Lengths of curves on the two spheres: what curves that slide are divided by, for there the map is nearest to
+/// keeping them.
+void measure_on_spheres(Curved& way, const TargetImage& model, const Positions& own) {
+    for (MeshWithCurves* mesh : {&way.source, &way.cut_source})
+        measure_curves(*mesh, model.with_places(own, mesh->places));
+    for (MeshWithCurves* mesh : {&way.target, &way.cut_target})
+        measure_curves(*mesh, model.with_places(model.points(), mesh->places));
+}
+
+/// What is asked of the search.
+struct Task {
+    const Surface &source, &target;
+    const TargetImage& model;
+    std::span<const SurfaceLandmark> landmarks;
+    std::span<const CurvePair> curves;
+    const CurveRegistrationOptions& options;
+};
+
+/// The map with the fewest flips, and its start.
+struct Found {
+    SurfaceFlowMap map;
+    Ready from;
+};
+
+void keep_better(const Task& task, Ready next, std::optional<Found>& best) {
+    const Surface with_curves(next.source.mesh);
+    SurfaceFlowMap map = least_lp_map(with_curves, task.model.target(), {task.options.p, {}}, next.wanted.constraints,
+                                      next.begin, task.options.flow);
+    if (best && map.distortion.flipped.size() >= best->map.distortion.flipped.size()) return;
+    best = Found{std::move(map), std::move(next)};
+}
+
+bool has_no_flips(const std::optional<Found>& found) {
+    return found && found->map.distortion.flipped.empty();
+}
+
+/// Tries the starts of one way to cut after another, those with the fewest flips and the least distortion first.
+/// @param failure the last start that could not be made, where another one may be
+void try_ways(const Task& task, std::vector<Curved> ways, const std::optional<Positions>& sphere,
+              std::optional<Found>& best, std::exception_ptr& failure) {
+    const bool only = ways.size() == 1;
+    std::vector<Ready> starts;
+    for (Curved& way : ways) {
+        try {
+            if (sphere) measure_on_spheres(way, task.model, *sphere);
+            starts.push_back(made_ready(task.source, task.target, task.model, std::move(way), task.landmarks,
+                                        task.curves, task.options));
+        } catch (const Error& error) {
+            if (error.cause() != Cause::not_solved && (only || error.cause() != Cause::bad_boundary)) throw;
+            failure = std::current_exception();
+        }
+    }
+    std::stable_sort(starts.begin(), starts.end(), [](const Ready& a, const Ready& b) {
+        return std::pair(a.flips, a.mean) < std::pair(b.flips, b.mean);
+    });
+    for (std::size_t i = 0; i < std::min(starts.size(), kMostTried) && !has_no_flips(best); ++i)
+        keep_better(task, std::move(starts[i]), best);
+}
+
+/// Where a start stays folded: of it and those that are led to the same places the one with the fewest flips.
+Ready led(const Task& task, Ready from) {
+    from.begin = led_start(task.source, Surface(from.source.mesh), from.wanted, from.source, std::move(from.begin),
+                           from.unheld, task.landmarks, task.curves, task.options);
     return from;
+}
+
+Found search(const Task& task) {
+    std::vector<CurveThrough> here, there;
+    bool all_slide = true;
+    for (const CurvePair& pair : task.curves) {
+        here.push_back(pair.source);
+        there.push_back(pair.target);
+        all_slide = all_slide && pair.slides;
+    }
+    const Mesh &source = task.source.mesh, &target = task.target.mesh;
+    const bool cut = task.source.topology.boundary_loops.empty() && task.options.start.empty() && !task.curves.empty();
+    std::optional<Positions> sphere;
+    if (cut && all_slide) sphere = fitted_sphere(task.source, task.model, task.curves, task.options.sphere);
+    std::optional<Found> best;
+    std::exception_ptr failure;
+    if (cut) {
+        for (std::vector<Curved>& ways : ways_to_cut(source, target, here, there))
+            if (!has_no_flips(best)) try_ways(task, std::move(ways), sphere, best, failure);
+    } else {
+        std::vector<Curved> one;
+        one.push_back(along_curves(source, target, here, there));
+        try_ways(task, std::move(one), {}, best, failure);
+    }
+    if (!best) std::rethrow_exception(failure);
+    if (!has_no_flips(best)) {
+        Ready again = best->from;
+        keep_better(task, led(task, std::move(again)), best);
+    }
+    return std::move(*best);
 }
 
 }  // namespace
@@ -305,34 +354,13 @@ LpRegistration register_least_lp(const Surface& source, const Surface& target,
     else
         model = std::make_unique<DomainImage>(target, options.target_outer_loop);
     result.image = model->points();
-    std::vector<CurveThrough> here, there;
-    for (const CurvePair& pair : curves) {
-        here.push_back(pair.source);
-        there.push_back(pair.target);
-    }
     if (!options.start.empty() && static_cast<int>(options.start.size()) != source.mesh.vertex_count())
         throw Error(Cause::bad_option, "the start has places for another number of vertices");
-    std::optional<Ready> ready;
-    const auto try_from = [&](Ready next) {
-        const Surface with_curves(next.source.mesh);
-        SurfaceFlowMap map = least_lp_map(with_curves, model->target(), {options.p, {}}, next.wanted.constraints,
-                                          next.begin, options.flow);
-        if (ready && map.distortion.flipped.size() >= result.map.distortion.flipped.size()) return;
-        result.map = std::move(map);
-        ready.emplace(std::move(next));
-    };
-    for (Curved& way : ways_to_cut(source.mesh, target.mesh, here, there)) {
-        try {
-            try_from(made_ready(source, target, *model, std::move(way), landmarks, curves, options));
-        } catch (const Error& error) {
-            if (error.cause() != Cause::not_solved || !ready) throw;
-        }
-        if (result.map.distortion.flipped.empty() || !closed || !options.start.empty()) break;
-    }
-    if (!result.map.distortion.flipped.empty()) try_from(led(source, *ready, landmarks, curves, options));
-    const Wanted& wanted = ready->wanted;
-    result.source = ready->source;
-    result.start_flipped = ready->start_flipped;
+    Found found = search({source, target, *model, landmarks, curves, options});
+    result.map = std::move(found.map);
+    const Wanted& wanted = found.from.wanted;
+    result.source = found.from.source;
+    result.start_flipped = found.from.start_flipped;
     if (const std::vector<int>& flipped = result.map.distortion.flipped; !flipped.empty())
         throw Error(Cause::not_solved,
                     std::to_string(flipped.size()) + " faces stay flipped: the start had " +

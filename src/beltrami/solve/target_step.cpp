@@ -17,6 +17,7 @@ constexpr double kShortest = 1e-6;  // step length below which no step is taken
 constexpr double kShift = 1e-9, kLargestShift = 1e-3;
 constexpr double kShort = 0.3, kNearlyFull = 0.9;  // step lengths at which the damping is raised and lowered
 constexpr double kFirstDamping = 1e-3, kLeastDamping = 1e-5, kDampingFactor = 4;
+constexpr double kHeldUpDamping = 1, kHeldUpFactor = 100;  // where no step is possible at all
 constexpr double kNoticeable = 1e-2;
 constexpr int kMostCorners = 4;
 
@@ -140,7 +141,9 @@ TargetStep::Taken TargetStep::step(TargetEnergy& energy, TargetMap& map, double 
 }
 
 void TargetStep::damp(double length) {
-    if (length < kShort)
+    if (length == 0)
+        damping_ = std::max(kHeldUpFactor * damping_, kHeldUpDamping);
+    else if (length < kShort)
         damping_ = std::max(kDampingFactor * damping_, kFirstDamping);
     else if (length > kNearlyFull)
         damping_ = damping_ / kDampingFactor < kLeastDamping ? 0 : damping_ / kDampingFactor;

@@ -1,7 +1,9 @@
 #include <beltrami/curves/surface_curve.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <set>
 
@@ -61,6 +63,16 @@ void expect_sound(const Mesh& mesh, const MeshWithCurves& found) {
         for (std::size_t i = 0; i + (curve.closed ? 0 : 1) < n; ++i) {
             const int a = curve.vertices[i], b = curve.vertices[(i + 1) % n];
             EXPECT_TRUE(edges.count({std::min(a, b), std::max(a, b)})) << a << " " << b;
+        }
+    }
+    for (const MeshWithCurves::Chain& curve : found.curves) {  // no edge bridges a curve
+        std::map<int, int> at;
+        for (std::size_t i = 0; i < curve.vertices.size(); ++i) at[curve.vertices[i]] = static_cast<int>(i);
+        const int n = static_cast<int>(curve.vertices.size());
+        for (const auto& [a, b] : after.edges) {
+            if (at.count(a) == 0 || at.count(b) == 0) continue;
+            const int apart = std::abs(at[a] - at[b]);
+            EXPECT_TRUE(apart == 1 || (curve.closed && apart == n - 1)) << a << " " << b;
         }
     }
     for (std::size_t i = 0; i < found.places.size(); ++i) {
@@ -147,6 +159,24 @@ TEST(MeshWithCurves, SeveralCurvesAndClosedOnesWithPointsInsideFaces) {
     const MeshWithCurves on_quads = mesh_with_curves(quads, std::array{through(quads, {{0.1, 0.2, 0}, {0.9, 0.6, 0}})});
     expect_sound(quads, on_quads);
     EXPECT_EQ(on_quads.mesh.faces.degree(on_quads.mesh.face_count() - 1), 4);
+}
+
+TEST(MeshWithCurves, EdgesThatBridgeACurveAreDivided) {
+    // A hairpin whose legs lie one cell apart, along edges and across faces.
+    for (const Cells cells : {Cells::triangles, Cells::quads})
+        for (const double slant : {0.0, 0.1}) {
+            const Mesh mesh = rectangle(1, 1, 10, 10, cells);
+            const CurveThrough hairpin =
+                through(mesh, {{0.1, 0.3, 0}, {0.8, 0.3 + slant, 0}, {0.8, 0.4 + slant, 0}, {0.1, 0.4, 0}});
+            const MeshWithCurves found = mesh_with_curves(mesh, std::array{hairpin});
+            expect_sound(mesh, found);
+            // Middles of bridges are new vertices on no curve.
+            const auto& chain = found.curves[0].vertices;
+            int middles = 0;
+            for (int v = mesh.vertex_count(); v < found.mesh.vertex_count(); ++v)
+                middles += std::find(chain.begin(), chain.end(), v) == chain.end();
+            EXPECT_GT(middles, slant > 0 ? 0 : 4);
+        }
 }
 
 TEST(MeshWithCurves, RefusesWhatCannotBe) {

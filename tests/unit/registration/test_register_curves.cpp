@@ -97,6 +97,44 @@ TEST(MapCutAlongCurves, PartsOfASphereWithOneCurveAreNotFolded) {
     }
 }
 
+TEST(RegisterLeastLp, SeveralOpenCurvesWhicheverWayTheyRun) {
+    // Two and three arcs, given in either direction: how the start turns around them is found, not given.
+    const Surface source(bumpy_ball(3, 0)), target(bumpy_ball(3, 1));
+    const std::vector<std::vector<Eigen::Vector3d>> arcs{
+        {{1, .1, .4}, {.6, .8, .5}}, {{-.8, .5, .1}, {-.7, -.6, .3}}, {{.3, -.9, -.3}, {.9, -.2, -.5}}};
+    for (const std::size_t count : {2U, 3U}) {
+        double least = 0, most = 0;
+        for (const unsigned reversed : {0U, 1U, 2U}) {
+            std::vector<CurvePair> pairs;
+            for (std::size_t c = 0; c < count; ++c) {
+                std::vector<Eigen::Vector3d> through = arcs[c];
+                if ((reversed >> c & 1U) != 0) std::reverse(through.begin(), through.end());
+                pairs.push_back({curve_through(source.mesh, through, 0, false),
+                                 curve_through(target.mesh, through, 0.3, false), true});
+            }
+            const LpRegistration found = register_least_lp(source, target, {}, pairs);
+            EXPECT_TRUE(found.map.distortion.flipped.empty());
+            EXPECT_LT(found.curve_distance, 2e-3);
+            const double mean = found.map.distortion.mean;
+            least = reversed == 0 ? mean : std::min(least, mean);
+            most = std::max(most, mean);
+        }
+        EXPECT_LT(most, 1.1 * least) << count;  // the same class
+        EXPECT_LT(most, 0.3);
+    }
+}
+
+TEST(RegisterLeastLp, ASharpBendGoesToAStraightCurve) {
+    const Surface source(bumpy_ball(4, 0)), target(bumpy_ball(4, 1));
+    const CurveThrough bent = curve_through(source.mesh, {{1, -.5, .1}, {.95, .4, .1}, {.9, -.2, .35}}, 0, false),
+                       straight = curve_through(target.mesh, {{1, -.6, .1}, {1, 0, .1}, {1, .6, .1}}, 0, false);
+    const MeshWithCurves divided = mesh_with_curves(source.mesh, std::array{bent});
+    EXPECT_GT(divided.places.size(), divided.curves[0].vertices.size() - bent.points.size());  // bridges are divided
+    const LpRegistration found = register_least_lp(source, target, {}, std::array{CurvePair{bent, straight, true}});
+    EXPECT_TRUE(found.map.distortion.flipped.empty());
+    EXPECT_LT(found.curve_distance, 2e-3);
+}
+
 TEST(RegisterLeastLp, SurfacesWithBoundaryAndTheirCurves) {
     // A sheet, with a curve inside and a landmark.
     const auto at = [](const Mesh& mesh, int i, int j) { return place_of_vertex(mesh, 17 * j + i); };
