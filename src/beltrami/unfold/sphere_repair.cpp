@@ -19,7 +19,7 @@ namespace beltrami {
 
 namespace {
 
-constexpr int kMostRings = 8;
+constexpr int kMostRings = 8, kMostEvenRings = 32;
 constexpr double kHemisphere = 0.05;   // least cosine of the angle from a patch' middle to its vertices
 constexpr double kLeastWeight = 1e-3;  // of a face, relative to the median, where folds are opened
 constexpr int kUnfoldingSteps = 200;
@@ -65,9 +65,12 @@ class Repair {
     SphereRepair run() {
         result_.flipped = faces_.flipped(points_);
         for (int rings = 1; rings <= kMostRings && !result_.flipped.empty(); ++rings)
-            pass(rings, result_.averaged, [&](const Patch& patch) { return averaged(patch); });
+            pass(rings, result_.averaged,
+                 [&](const Patch& patch) { return averaged(patch, ConvexWeights::mean_value); });
         for (int rings = 2; rings <= kMostRings && !result_.flipped.empty(); rings += 2)
             pass(rings, result_.unfolded, [&](const Patch& patch) { return unfolded(patch); });
+        for (int rings = 1; rings <= kMostEvenRings && !result_.flipped.empty(); rings *= 2)
+            pass(rings, result_.averaged, [&](const Patch& patch) { return averaged(patch, ConvexWeights::uniform); });
         return std::move(result_);
     }
 
@@ -172,13 +175,13 @@ class Repair {
         return corners;
     }
 
-    std::optional<Eigen::VectorXcd> averaged(const Patch& patch) const {
+    std::optional<Eigen::VectorXcd> averaged(const Patch& patch, ConvexWeights weights) const {
         BoundaryCondition rim;
         for (std::size_t v = 0; v < patch.moves.size(); ++v)
             if (!patch.moves[v]) rim.pin(static_cast<int>(v), patch.plane[v]);
         if (rim.empty()) return {};
         try {
-            return convex_combination_map(Surface(patch.part.mesh, corners_of(patch)), rim, ConvexWeights::mean_value);
+            return convex_combination_map(Surface(patch.part.mesh, corners_of(patch)), rim, weights);
         } catch (const Error&) {
             return {};  // singular to rounding
         }
