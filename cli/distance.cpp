@@ -34,6 +34,8 @@ class DistanceCommand final : public Command {
                 ->check(CLI::IsMember({"position", "size"}))
                 ->capture_default_str();
         align_option_ = add_align_option(*app, align_);
+        marking_option_ = add_marking_option(*app, marking_);
+        marking_option_->default_str("search of tori, else closest");
         app->add_option("--picture", picture_, "the matrix and the tree of its clusters, as SVG")
             ->type_name("FILE.svg");
         options_.add_to(*app);
@@ -53,7 +55,7 @@ class DistanceCommand final : public Command {
             MeshInput input = options_.load(mesh, record.warnings);
             try {
                 const Topology shape = topology(input.mesh);
-                if (shape.genus > 1 || (shape.genus == 1 && !shape.boundary_loops.empty())) {
+                if (with_hyperbolic_metric(shape)) {
                     Warnings cut;
                     cut_into_triangles(input, cut);
                     for (const Warning& warning : cut) record.warnings.push_back(prefixed(mesh, warning));
@@ -68,10 +70,9 @@ class DistanceCommand final : public Command {
         }
         record.source = source_record(surfaces[0]);
         const Topology& first = surfaces[0].topology;
-        const bool torus = first.genus == 1 && first.boundary_loops.empty();
-        record.distances = first.components != 1 || first.genus == 0 ? between_domains(surfaces)
-                           : torus                                   ? between_tori(surfaces)
-                                                                     : between_handles(surfaces);
+        record.distances = first.components == 1 && with_hyperbolic_metric(first) ? between_handles(surfaces)
+                           : first.components != 1 || first.genus == 0            ? between_domains(surfaces)
+                                                                                  : between_tori(surfaces);
         if (!picture_.empty())
             write_atomically(picture_,
                              render_dendrogram(names(), record.distances->matrix.distance, record.distances->merges));
@@ -93,7 +94,14 @@ class DistanceCommand final : public Command {
             if (option->count() > 0) throw Error(Cause::bad_option, option->get_name() + why, "leave it out");
     }
 
+    /// Surfaces of genus 0 have their circle domains, unless a class of nearest points is asked for.
+    bool with_hyperbolic_metric(const Topology& shape) const {
+        const bool told = align_option_->count() + marking_option_->count() > 0;
+        return 2 * shape.genus + static_cast<int>(shape.boundary_loops.size()) > 2 && (shape.genus > 0 || told);
+    }
+
     DistancesRecord between_handles(const std::vector<Surface>& surfaces) {
+        if (marking_ == "search") refuse({align_option_}, " is for nearest points, and the class is sought");
         refuse({outer_option_, match_option_},
                " is for surfaces of genus 0: with handles, boundary loops go to the nearest");
         DistanceMatrix matrix;
@@ -103,21 +111,53 @@ class DistanceCommand final : public Command {
                 progress.show(done, static_cast<double>(all), "of");
                 return true;
             };
-            matrix = handle_distances(surfaces, alignment_of(align_), show, meshes_);
+            std::optional<ClassSearchOptions> search;
+            if (marking_ == "search") search.emplace();
+            matrix = handle_distances(surfaces, alignment_of(align_), show, meshes_, search);
         }
         warn_of_unsettled(matrix);
+        if (marking_ == "search")
+            record_.warnings.push_back(
+                {WarningKind::start, "classes were sought, and no optimum over all of them is proved", {}});
         return {meshes_, matrix, cluster_by_distance(matrix.distance)};
     }
 
     DistancesRecord between_tori(const std::vector<Surface>& surfaces) const {
         refuse({outer_option_, match_option_}, " is for boundary loops, and tori have none");
-        refuse({align_option_}, " is for nearest points, and of tori all classes are tried");
+        if (marking_ != "closest")
+            refuse({align_option_}, " is for nearest points (--marking closest), and of tori all classes are tried");
         TorusDistances found = torus_distances(surfaces, meshes_);
+        if (marking_ == "closest") take_nearest_points(surfaces, found);
         return {meshes_, found.matrix, cluster_by_distance(found.matrix.distance), found.tau, found.markings};
     }
 
+    /// The distances of tori in the classes of nearest points.
+    void take_nearest_points(const std::vector<Surface>& surfaces, TorusDistances& found) const {
+        HandleMarking marking;
+        marking.alignment = alignment_of(align_);
+        const auto half_log = [](double K) { return 0.5 * std::log(std::max(1.0, K)); };
+        for (TorusDistances::Pair& pair : found.markings) {
+            const auto &from = surfaces[static_cast<std::size_t>(pair.from)],
+                       &to = surfaces[static_cast<std::size_t>(pair.to)];
+            try {
+                const TorusMap map = register_tori(from, to, marking);
+                pair.marking = map.marking;
+                const auto set = [&](Eigen::MatrixXd& matrix, double K) {
+                    matrix(pair.from, pair.to) = matrix(pair.to, pair.from) = half_log(K);
+                };
+                set(found.matrix.distance, map.K);
+                set(found.matrix.lower, map.K_lower);
+                set(found.matrix.upper, map.K_upper);
+            } catch (const Error& error) {
+                throw Error(error.cause(), meshes_[pair.from] + " and " + meshes_[pair.to] + ": " + error.what(), {},
+                            {Things::shapes, {pair.from, pair.to}});
+            }
+        }
+    }
+
     DistancesRecord between_domains(const std::vector<Surface>& surfaces) {
-        refuse({align_option_}, " is for surfaces with handles");
+        refuse({align_option_, marking_option_},
+               " is for surfaces with handles, or with three boundary loops and more");
         Correspondence wanted;
         wanted.outer_loop = outer_;
         wanted.match_by = match_ == "size" ? MatchBy::size : MatchBy::position;
@@ -168,7 +208,8 @@ class DistanceCommand final : public Command {
                 if (!found.markings.empty()) {
                     const TorusDistances::Pair& pair = found.markings[next++];
                     marking =
-                        fmt::format("; the nearest marking sends a to {} and b to {}", where(pair, 0), where(pair, 1));
+                        fmt::format("; {} marking sends a to {} and b to {}",
+                                    marking_ == "closest" ? "this" : "the nearest", where(pair, 0), where(pair, 1));
                 }
                 fmt::print("{} {}: {:.6f} (between {:.6f} and {:.6f}), K = {:.6f}{}\n", meshes_[i], meshes_[j],
                            matrix.distance(i, j), matrix.lower(i, j), matrix.upper(i, j),
@@ -179,8 +220,9 @@ class DistanceCommand final : public Command {
     std::vector<std::string> meshes_;
     std::string match_ = "position", picture_;
     int outer_ = 0;
-    std::string align_ = "none";
-    CLI::Option *outer_option_ = nullptr, *match_option_ = nullptr, *align_option_ = nullptr;
+    std::string align_ = "none", marking_;
+    CLI::Option *outer_option_ = nullptr, *match_option_ = nullptr, *align_option_ = nullptr,
+                *marking_option_ = nullptr;
     MeshInputOptions options_;
 };
 

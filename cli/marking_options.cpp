@@ -53,6 +53,15 @@ CLI::Option* add_align_option(CLI::App& app, std::string& align) {
         ->capture_default_str();
 }
 
+CLI::Option* add_marking_option(CLI::App& app, std::string& marking) {
+    return app
+        .add_option("--marking", marking,
+                    "of surfaces with handles: the class of maps that take vertices to the nearest points, or search: "
+                    "of tori that of least dilatation, of closed surfaces of higher genus that of least energy from "
+                    "several starts")
+        ->check(CLI::IsMember({"closest", "search"}));
+}
+
 Alignment alignment_of(const std::string& align) {
     if (align == "rigid") return Alignment::rigid;
     return align == "similarity" ? Alignment::similarity : Alignment::none;
@@ -61,12 +70,7 @@ Alignment alignment_of(const std::string& align) {
 void MarkingOptions::add_to(CLI::App& app) {
     app_ = &app;
     add_align_option(app, align_);
-    app.add_option(
-           "--marking", marking_,
-           "of surfaces with handles: the class of maps that take vertices to the nearest points, or search: of tori "
-           "that of least dilatation, of closed surfaces of higher genus that of least energy from several starts")
-        ->check(CLI::IsMember({"closest", "search"}))
-        ->capture_default_str();
+    add_marking_option(app, marking_)->capture_default_str();
     app.add_option(
            "--loop", loops_,
            "of closed surfaces with handles: a closed path of vertices of SOURCE and its image on TARGET, a file "

@@ -34,8 +34,9 @@ class MarkingOptions {
     const CLI::App* app_ = nullptr;
 };
 
-/// --align alone, of `distance`.
+/// --align and --marking alone, of `distance`.
 CLI::Option* add_align_option(CLI::App& app, std::string& align);
+CLI::Option* add_marking_option(CLI::App& app, std::string& marking);
 Alignment alignment_of(const std::string& align);
 
 }  // namespace beltrami::cli

@@ -62,6 +62,15 @@ void make(const Page& page, const std::filesystem::path& file, const std::vector
     std::stringstream old;
     old << std::ifstream(file).rdbuf();
     auto sections = sections_of(page, old.str());
+    // After every figure: what is done stays where a later one fails.
+    const auto write = [&] {
+        std::ofstream text(file);
+        text << page.introduction;
+        for (const Entry& entry : page.figures)
+            if (sections.contains(entry.name)) text << sections[entry.name];
+        text.close();
+        if (!text) throw Error(Cause::unwritable, "cannot write " + file.string());
+    };
     for (const Entry& entry : page.figures) {
         if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), entry.name) == wanted.end()) continue;
         fmt::print("{}\n", entry.name);
@@ -71,13 +80,9 @@ void make(const Page& page, const std::filesystem::path& file, const std::vector
         sections[entry.name] = section(entry.name, figure);
         for (const gallery::Picture& picture : figure.pictures)
             if (!picture.panels.empty()) pictures.push_back({{"name", picture.name}, {"panels", picture.panels}});
+        write();
     }
-    std::ofstream text(file);
-    text << page.introduction;
-    for (const Entry& entry : page.figures)
-        if (sections.contains(entry.name)) text << sections[entry.name];
-    text.close();
-    if (!text) throw Error(Cause::unwritable, "cannot write " + file.string());
+    write();
 }
 
 }  // namespace

@@ -268,20 +268,24 @@ void bind_maps_of_handles(py::module_& m) {
     m.def(
         "handle_distances",
         [](const std::vector<SurfacePtr>& surfaces, const std::string& alignment,
-           const std::optional<py::function>& progress, const std::vector<std::string>& names) {
+           const std::optional<py::function>& progress, const std::vector<std::string>& names, bool search) {
             const Alignment how = alignment_from(py::str(alignment));
             const std::vector<Surface> list = surfaces_of(surfaces, names);
             Interruption interruption;
             std::function<bool(int, int)> tell;
             if (progress) tell = [&](int done, int all) { return interruption.call(*progress, done, all); };
-            DistanceMatrix found = without_lock(interruption, [&] { return handle_distances(list, how, tell, names); });
+            std::optional<ClassSearchOptions> sought;
+            if (search) sought.emplace();
+            DistanceMatrix found =
+                without_lock(interruption, [&] { return handle_distances(list, how, tell, names, sought); });
             return py::make_tuple(std::move(found.distance), std::move(found.lower), std::move(found.upper),
                                   pairs_array(found.unsettled));
         },
         py::arg("surfaces"), py::arg("alignment") = "none", py::arg("progress") = py::none(),
-        py::arg("names") = std::vector<std::string>(),
+        py::arg("names") = std::vector<std::string>(), py::arg("search") = false,
         "All distances of closed surfaces of one genus, 2 or more, each in the class of nearest points after an "
-        "alignment: n×n distances, lower and upper bounds, and the m×2 pairs that have not settled.\n\n"
+        "alignment, or with search=True in a class that is sought: n×n distances, lower and upper bounds, and the m×2 "
+        "pairs that have not settled.\n\n"
         "progress(done, all) is called after each pair.\n\nRaises BadMesh, BadOption, NotSolved naming a pair, "
         "Cancelled.");
 }

@@ -70,6 +70,20 @@ class RegisterTori(Command):
         self.assertAlmostEqual(twisted["map"]["K"], 3.776668, delta=4e-2)
         self.assertEqual(twisted["map"]["flipped"], 0)
 
+    def test_distances_in_the_class_of_nearest_points(self):
+        self.tori()
+        meshes = (self.path("a.obj"), self.path("b.obj"))
+        least = self.record("distance", *meshes)["distances"]
+        closest = self.record("distance", *meshes, "--marking", "closest", "--align", "rigid")["distances"]
+        self.assertAlmostEqual(least["distance"][0][1], 0.25 * math.log(3), delta=5e-3)
+        self.assertAlmostEqual(closest["distance"][0][1], least["distance"][0][1], delta=1e-9)
+        # Of a small copy that lies elsewhere nearest points tell no class.
+        write_obj(self.path("c.obj"), 0.1 * self.source + [5, 0, 0], self.faces)
+        self.assertAlmostEqual(self.record("distance", meshes[0], self.path("c.obj"))["distances"]["distance"][0][1], 0,
+                               delta=1e-9)
+        self.run_command("distance", meshes[0], self.path("c.obj"), "--marking", "closest", code=2)
+        self.run_command("distance", *meshes, "--align", "rigid", code=2)
+
     def test_a_class_of_no_map_is_refused(self):
         self.tori()
         # All of a small copy is nearest to a part of the target.
@@ -171,6 +185,7 @@ class RegisterOpenSurfacesWithHandles(Command):
         self.run_command("register", self.path("a.obj"), self.path("closed.obj"), "-o", self.path("out.ply"), code=4)
         self.run_command("register", self.path("closed.obj"), self.path("a.obj"), "-o", self.path("out.ply"), code=4)
         self.run_command("distance", self.path("a.obj"), self.path("closed.obj"), code=4)
+        self.run_command("distance", self.path("a.obj"), self.path("b.obj"), "--marking", "search", code=4)
 
 
 @unittest.skipUnless((CASES / "double_torus_a.obj").exists(), "the double tori are not here")
@@ -207,6 +222,13 @@ class RegisterDoubleTori(Command):
         energies = [reached["energy"] for reached in search["reached"]]
         self.assertEqual(energies, sorted(energies))
         self.assertTrue(any("no optimum over all classes is proved" in warning for warning in record["warnings"]))
+
+    def test_distances_in_classes_that_are_sought(self):
+        meshes = [CASES / f"double_torus_{name}.obj" for name in ("a", "22")]
+        record = self.record("distance", *meshes, "--marking", "search")
+        self.assertAlmostEqual(math.tanh(record["distances"]["distance"][0][1]), 0.2945, delta=2e-3)
+        self.assertTrue(any("no optimum over all of them is proved" in warning for warning in record["warnings"]))
+        self.run_command("distance", *meshes, "--marking", "search", "--align", "rigid", code=2)
 
     def test_twist_about_a_short_loop(self):
         self.record("uniformize", CASES / "double_torus_a.obj", "-o", self.path("cut.obj"), "--loops", self.path("loop"))

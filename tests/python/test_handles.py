@@ -90,6 +90,8 @@ def test_maps_of_handles(pretzel: bt.Surface, shape: bt.HyperbolicShape) -> None
     assert 0 < distance.lower <= distance.distance <= distance.upper and json.loads(distance.to_json())["settled"] in (True, False)
     matrix, lower, upper, _ = bt.handle_distances([pretzel, stretched])
     assert matrix[0, 1] == matrix[1, 0] == pytest.approx(distance.distance, rel=1e-2) and lower[0, 1] <= upper[0, 1]
+    sought = bt.handle_distances([pretzel, stretched], search=True)[0]
+    assert sought[0, 1] == pytest.approx(matrix[0, 1], rel=5e-2)
     inverse, _, _ = bt.inverse_marking(shape, target, found)
     assert inverse.bases.shape == (stretched.vertex_count,)
     with pytest.raises(bt.Cancelled):

@@ -127,10 +127,13 @@ struct PairwiseMaps {
         }
         return {};
     }
-    Distance distance(int i, int j, const std::vector<int>& start) {
+    EquivariantMap by_vertices(int i, int j, const std::vector<int>& to) const {
         const HyperbolicShape &a = *shapes[i], &b = *shapes[j];
-        Marking marking = marking_by_vertices(a.surface(), a.metric().original, b.group(), start);
-        const HyperbolicMap there = hyperbolic_map(a, b, std::move(marking.map));
+        return marking_by_vertices(a.surface(), a.metric().original, b.group(), to).map;
+    }
+    Distance distance(int i, int j, EquivariantMap start) {
+        const HyperbolicShape &a = *shapes[i], &b = *shapes[j];
+        const HyperbolicMap there = hyperbolic_map(a, b, std::move(start));
         const HyperbolicMap back = hyperbolic_map(b, a, inverse_marking(a, b, there).map);
         images[{i, j}] = nearest_vertices(there.places);
         images[{j, i}] = nearest_vertices(back.places);
@@ -201,7 +204,8 @@ TorusMap register_tori(const Surface& source, const Surface& target, const std::
 
 DistanceMatrix handle_distances(const std::vector<Surface>& surfaces, Alignment alignment,
                                 const std::function<bool(int done, int all)>& progress,
-                                const std::vector<std::string>& names) {
+                                const std::vector<std::string>& names,
+                                const std::optional<ClassSearchOptions>& search) {
     const auto n = static_cast<int>(surfaces.size());
     if (n < 2) throw Error(Cause::bad_option, "a distance needs two shapes");
     const auto name = [&](int i) { return names.empty() ? "shape " + std::to_string(i) : names[i]; };
@@ -215,9 +219,9 @@ DistanceMatrix handle_distances(const std::vector<Surface>& surfaces, Alignment 
         for (int j = i + 1; j < n; ++j) open.push_back({i, j});
     const auto all = static_cast<int>(open.size());
     int done = 0;
-    const auto settle = [&](int i, int j, const std::vector<int>& images) {
+    const auto settle = [&](int i, int j, const std::function<EquivariantMap()>& start) {
         naming(name(i) + " and " + name(j), {i, j}, [&] {
-            const Distance d = maps.distance(i, j, images);
+            const Distance d = maps.distance(i, j, start());
             result.distance(i, j) = result.distance(j, i) = d.distance;
             result.lower(i, j) = result.lower(j, i) = d.lower;
             result.upper(i, j) = result.upper(j, i) = d.upper;
@@ -229,9 +233,12 @@ DistanceMatrix handle_distances(const std::vector<Surface>& surfaces, Alignment 
     std::vector<std::array<int, 2>> contradictory;
     std::optional<Error> first;
     for (const auto& [i, j] : open) try {
-            settle(i, j, maps.nearest(i, j, alignment));
+            settle(i, j, [&, i = i, j = j] {
+                return search ? search_class(*maps.shapes[i], *maps.shapes[j], *search).map
+                              : maps.by_vertices(i, j, maps.nearest(i, j, alignment));
+            });
         } catch (const Error& error) {
-            if (error.cause() != Cause::bad_option) throw;
+            if (error.cause() != Cause::bad_option || search) throw;
             if (!first) first = error;
             contradictory.push_back({i, j});
         }
@@ -240,7 +247,7 @@ DistanceMatrix handle_distances(const std::vector<Surface>& surfaces, Alignment 
         std::erase_if(contradictory, [&](const std::array<int, 2>& pair) {
             const std::vector<int> images = maps.over_another(pair[0], pair[1]);
             if (images.empty()) return false;
-            settle(pair[0], pair[1], images);
+            settle(pair[0], pair[1], [&] { return maps.by_vertices(pair[0], pair[1], images); });
             return true;
         });
         if (contradictory.size() == before) throw *first;

@@ -55,11 +55,13 @@ TorusMap register_tori(const Surface& source, const Surface& target, const std::
 /// All distances of surfaces of one topology with metrics of curvature −1, each in the class of nearest points after an
 /// alignment, by the extremal maps both ways; where nearest points contradict each other, in the class of maps over a
 /// third shape.
+/// @param search   instead of all that, classes are sought for every pair (class_search.h)
 /// @param progress called after each pair with their number; returning false cancels (Error cancelled)
 /// @param names    what errors call the shapes; empty: "shape 0" …
 /// @throw Error as hyperbolic_map, naming the pair
 DistanceMatrix handle_distances(const std::vector<Surface>& surfaces, Alignment alignment = Alignment::none,
                                 const std::function<bool(int done, int all)>& progress = {},
-                                const std::vector<std::string>& names = {});
+                                const std::vector<std::string>& names = {},
+                                const std::optional<ClassSearchOptions>& search = {});
 
 }  // namespace beltrami
