@@ -85,6 +85,25 @@ class Deform(Command):
         self.assertEqual(record["deform"]["minimized"], "max")
         self.assertTrue(any("genus 1" in warning for warning in record["warnings"]))
 
+    def test_what_the_data_alone_turn_over_is_told(self):
+        n = 10
+        grid = np.array([(i / n, j / n, 0) for i in range(n + 1) for j in range(n + 1)])
+        faces = [[i * (n + 1) + j, (i + 1) * (n + 1) + j, (i + 1) * (n + 1) + j + 1, i * (n + 1) + j + 1] for i in range(n) for j in range(n)]
+        pathlib.Path(self.path("a.obj")).write_text(
+            "".join(f"v {x} {y} {z}\n" for x, y, z in grid) + "".join("f " + " ".join(str(v + 1) for v in f) + "\n" for f in faces))
+        # One corner is pushed in, so far that its own triangle is turned over.
+        pins = ""
+        for v, (x, y, _) in enumerate(grid):
+            if {x, y} & {0.0, 1.0}:
+                by = 0.65 * x * y if 1.0 in (x, y) else 0
+                pins += f"{v} {x - by} {y - by} 0\n"
+        pathlib.Path(self.path("pins.txt")).write_text(pins)
+        record = self.deform("--onto", "plane")
+        said = [warning for warning in record["warnings"] if "flipped" in warning]
+        self.assertEqual(len(said), 1, record["warnings"])
+        self.assertIn("no map opens it", said[0])
+        self.assertEqual(record["map"]["flipped"], 1)
+
     def test_bad_handles_are_refused(self):
         path = pathlib.Path(self.path("pins.txt"))
         path.write_text("0 1 2 3\n0 1 2 4\n")

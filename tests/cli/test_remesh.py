@@ -55,6 +55,16 @@ class Remesh(Command):
         # The border slides along itself.
         self.assertGreater(np.hypot(out[-72:, 0], out[-72:, 1]).min(), np.cos(np.pi / 72) - 1e-9)
 
+    def test_small_angles_are_opened(self):
+        closed, opened = self.remesh("--p", "2")["remesh"], self.remesh("--p", "2", "--open-angles")["remesh"]
+        for what in ("min", "p1"):
+            self.assertGreaterEqual(opened["angles"]["after"][what], closed["angles"]["after"][what])
+        self.assertGreater(opened["angles"]["after"]["min"], closed["angles"]["after"]["min"] + 1)
+        self.assertLess(opened["distance"]["largest"], 1.4 * 0.003)
+        for other in (("--fast",), ("--preserve", "normals")):
+            self.assertIn("--open-angles", self.run_command(
+                "remesh", self.path("a.obj"), "-o", self.path("b.obj"), "--open-angles", *other, code=2).stderr)
+
     def test_a_fixed_border_stays(self):
         self.remesh("--border", "fixed", "--p", "2")
         out, _, _ = read_obj(self.path("out.obj"))

@@ -12,7 +12,6 @@
 #include <beltrami/mesh/planar.h>
 #include <beltrami/remeshing/feature_curves.h>
 #include <beltrami/remeshing/mesh_comparison.h>
-#include <beltrami/space/polygon_surface.h>
 #include <beltrami/space/tangential_map.h>
 #include <beltrami/space/uniform_map.h>
 #include <beltrami/space/unrolled_map.h>
@@ -127,6 +126,13 @@ struct DeformSolver::Parts {
         return result;
     }
 
+    /// The source with its vertices where a map begins. Not a surface of its own: faces may be reflex there.
+    Surface where(Mesh begin) const {
+        Surface start = source;
+        start.mesh = std::move(begin);
+        return start;
+    }
+
     /// @return whether steps for the last power gained little in the end
     bool relax(TangentialMap& map, double first_power) const {
         map.set_damping(kDamping);
@@ -156,7 +162,7 @@ struct DeformSolver::Parts {
         if (target.mesh()) result.places = beltrami::places_of(points);
         result.distortion = distortion(elements.operators, result.positions, normals_of(points));
         result.of_surface = distortion(elements.operators, begin.positions, normals_at(target, begin));
-        const std::vector<int> free = flipped_freely(result);
+        const std::vector<int> free = flipped_freely(result.distortion);
         std::set_difference(result.distortion.flipped.begin(), result.distortion.flipped.end(), free.begin(),
                             free.end(), std::back_inserter(result.forced));
         result.folds = fold_edges(source, result.positions);
@@ -170,7 +176,7 @@ struct DeformSolver::Parts {
     }
 
     /// Faces that are flipped though not at a corner whose triangle the handles' places alone turn over.
-    std::vector<int> flipped_freely(const Deformation& result) const {
+    std::vector<int> flipped_freely(const Distortion& result) const {
         std::vector<char> held(static_cast<std::size_t>(source.mesh.vertex_count()), 0);
         std::vector<char> free(static_cast<std::size_t>(source.mesh.face_count()), 0);
         for (const int v : handles) held[v] = 1;
@@ -178,10 +184,10 @@ struct DeformSolver::Parts {
         for (int s = 0; s < own.sample_count(); ++s) {
             const auto v = own.stencil(s);
             const bool forced = std::all_of(v.begin(), v.end(), [&](int i) { return held[i] != 0; });
-            if (!forced && std::abs(result.distortion.mu[s]) > 1) free[own.faces[s]] = 1;
+            if (!forced && std::abs(result.mu[s]) > 1) free[own.faces[s]] = 1;
         }
         std::vector<int> faces;
-        for (const int f : result.distortion.flipped)
+        for (const int f : result.flipped)
             if (free[f]) faces.push_back(f);
         return faces;
     }
@@ -207,7 +213,7 @@ struct DeformSolver::Parts {
         if (!wanted) return;
         try {
             const bool upright = result.distortion.flipped.empty();
-            const Surface start(upright ? with_positions(begin, result.positions) : begin);
+            const Surface start = where(upright ? with_positions(begin, result.positions) : begin);
             TangentialMap map(start, elements.operators, target, held, 0);
             if (!map.folded().empty()) return;
             double least = result.distortion.standard_deviation;
@@ -254,7 +260,7 @@ struct DeformSolver::Parts {
         uniform.progress = options.progress;
         const UnrolledMap map = uniform_unrolled_map(source.mesh, elements, unrolled->places, unrolled->fixed, uniform);
         Deformation result = measured(target, rolled_up(*unrolled->surface, map.vertices), begin);
-        if (!flipped_freely(result).empty()) return {};
+        if (!flipped_freely(result.distortion).empty()) return {};
         result.goal = options.goal;
         result.steps = map.solves;
         result.settled = map.converged;
@@ -275,7 +281,7 @@ struct DeformSolver::Parts {
                                   : maps.uniform(begin, kUniformSteps, options.progress);
                 Deformation result = measured(target, nearest_points(target, map.positions), begin);
                 if (map.extremal) follow_differential(target, begin, held, *map.extremal, result);
-                const std::vector<int> flipped = flipped_freely(result);
+                const std::vector<int> flipped = flipped_freely(result.distortion);
                 if (flipped.empty()) {
                     result.goal = options.goal;
                     result.steps = map.steps;
@@ -299,7 +305,7 @@ struct DeformSolver::Parts {
     /// @param begin positions of the vertices on the target, without folds
     /// @throw Error not_solved naming faces if there are
     Deformation by_powers(const Target& target, const Mesh& begin, const TargetConstraints& held, double first_power) {
-        const Surface start(polygon_surface(begin));
+        const Surface start = where(begin);
         TangentialMap map(start, elements.operators, target, held, 0);
         if (const std::vector<int> folded = map.folded(); !folded.empty()) {
             std::vector<int> faces;
@@ -341,13 +347,17 @@ struct DeformSolver::Parts {
         for (const int v : handles) freedoms[v] = Freedom::fixed;
         for (const auto& loop : source.topology.boundary_loops)
             for (const int v : loop) freedoms[v] = Freedom::fixed;
-        const FoldFreeMap map = fold_free_map(source, freedoms, Eigen::VectorXcd::Zero(source.operators.sample_count()),
-                                              planar_coordinates(begin));
-        if (!map.fold_free) return {};
+        Surface corners = source;
+        corners.operators = elements.operators;  // a quad folds at its corners first
+        const FoldFreeMap map = fold_free_map(
+            corners, freedoms, Eigen::VectorXcd::Zero(corners.operators.sample_count()), planar_coordinates(begin));
         Mesh result = begin;
         const double side = seen_from_below(begin) ? -1 : 1;
         for (int v = 0; v < begin.vertex_count(); ++v)
             result.positions.row(v).head<2>() << map.map[v].real(), side * map.map[v].imag();
+        // What the handles alone turn over stays so.
+        const Positions up = Eigen::RowVector3d(0, 0, side).replicate(begin.vertex_count(), 1);
+        if (!flipped_freely(distortion(elements.operators, result.positions, up)).empty()) return {};
         return result;
     }
 
