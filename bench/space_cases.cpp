@@ -1,6 +1,7 @@
 #include "space_cases.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -84,12 +85,21 @@ Handles turned(const Mesh& mesh, double angle, double pull, double scale, bool a
 }
 
 Mesh torus_with_hole() {
-    return part_of(torus(2, 1, 64, 32),
-                   [](const Eigen::Vector3d& p) { return (p - Eigen::Vector3d(-3, 0, 0)).norm() > 0.85; });
+    constexpr int kAlong = 32;
+    const Mesh quads = torus(2, 1, 64, kAlong, Cells::quads);
+    Mesh mesh;
+    mesh.positions = quads.positions;
+    for (int f = 0; f < quads.face_count(); ++f) {
+        const auto v = quads.faces[f];
+        const bool even = (f / kAlong + f % kAlong) % 2 == 0;
+        mesh.faces.add(even ? std::array{v[0], v[1], v[2]} : std::array{v[0], v[1], v[3]});
+        mesh.faces.add(even ? std::array{v[0], v[2], v[3]} : std::array{v[1], v[2], v[3]});
+    }
+    return part_of(mesh, [](const Eigen::Vector3d& p) { return (p - Eigen::Vector3d(-3, 0, 0)).norm() > 0.85; });
 }
 
 Mesh sphere_with_holes() {
-    return part_of(icosahedral_sphere(5), [](const Eigen::Vector3d& p) { return p.cwiseAbs().maxCoeff() < 0.93; });
+    return part_of(octahedral_sphere(5), [](const Eigen::Vector3d& p) { return p.cwiseAbs().maxCoeff() < 0.93; });
 }
 
 Mesh with_holes(const Mesh& mesh, int holes) {

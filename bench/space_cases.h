@@ -23,7 +23,7 @@ Handles arrow_head(const Mesh& square, double push);
 /// Boundary loops turned about their axes, pulled along them and scaled; every other one the other way, if wanted.
 Handles turned(const Mesh& mesh, double angle, double pull, double scale, bool alternating);
 
-/// The torus of radii 2 and 1 with a hole at its outer equator, 4 008 faces.
+/// The torus of radii 2 and 1 with a hole at its outer equator, 4 008 faces, diagonals of its grid this way and that.
 Mesh torus_with_hole();
 /// The sphere with a hole at each of six ends, 6 128 faces.
 Mesh sphere_with_holes();

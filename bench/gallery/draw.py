@@ -343,6 +343,9 @@ def draw_surface(axes, panel, load):
                   else np.floor(place / square + OFFSET).astype(int).sum(1) % 2)
         colours = np.where(parity[:, None] == 1, CHECKER[0], CHECKER[1])
         colours[data["mu"][face[seen]] >= 1] = FLIPPED[:3]
+    elif panel["colour"] == "signed":
+        values = data["mu"][face[seen]]
+        colours = matplotlib.colormaps["coolwarm"](np.clip(0.5 + 0.5 * values / panel["max"], 0, 1))[:, :3]
     else:
         colours = colours_of(data["mu"][face[seen]], 0, panel["max"])[:, :3]
     p = data["space"][triangles]
@@ -459,7 +462,8 @@ def main():
         # The bar of colours has a column of its own after the last map.
         bar = maps[-1] + 1 if maps else None
         ratios = shapes if bar is None else shapes[:bar] + [0.05] + shapes[bar:]
-        figure, grid = plt.subplots(1, len(ratios), figsize=(height * sum(ratios) + 0.5, height + 0.3), squeeze=False,
+        signed = any(panel.get("colour") == "signed" for panel in panels)  # high, with surfaces alone
+        figure, grid = plt.subplots(1, len(ratios), figsize=(height * sum(ratios) + 0.5, height + (0.5 if signed else 0.3)), squeeze=False,
                                     layout="constrained", width_ratios=ratios)
         scale = None
         for axes, panel in zip([a for i, a in enumerate(grid.flat) if i != bar], panels):

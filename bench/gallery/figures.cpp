@@ -120,10 +120,32 @@ const Page& higher_genus() {
     return page;
 }
 
+const Page& into_space() {
+    static const Page page{
+        "gallery-space.md",
+        "# Gallery: maps into space and shapes of faces\n\n"
+        "Examples of Gruber, Aulisa, *Quasiconformal mappings for surface mesh optimization*, 2022, made again with\n"
+        "beltrami by `./run gallery` ([maps into space](space.md), [deformation](deform.md), [remeshing](remesh.md)).\n"
+        "Least squares and QC iteration are the paper's, corrected.\n\n",
+        {{"space_01", space_01},
+         {"space_02", space_02},
+         {"space_05", space_05},
+         {"space_06", space_06},
+         {"space_09", space_09},
+         {"space_10", space_10},
+         {"space_14", space_14},
+         {"space_17", space_17},
+         {"space_18", space_18},
+         {"space_20", space_20},
+         {"space_steps", space_steps}}};
+    return page;
+}
+
 }  // namespace
 
 const std::vector<Page>& pages() {
-    static const std::vector<Page> list{prescribed(), sliding(), sphere(), handles(), higher_genus(), flows()};
+    static const std::vector<Page> list{prescribed(),   sliding(), sphere(),    handles(),
+                                        higher_genus(), flows(),   into_space()};
     return list;
 }
 

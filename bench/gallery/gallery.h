@@ -215,4 +215,17 @@ Figure flow_annulus(Output& output);    ///< a ring of the wrong module
 Figure flow_square(Output& output);     ///< Table 5.3
 Figure flow_tori(Output& output);       ///< least Lᵖ norm
 
+// Into space: beside Gruber & Aulisa.
+Figure space_01(Output& output);     ///< genus 2, if the folder BELTRAMI_MESHES has it
+Figure space_02(Output& output);     ///< a square with a corner pushed in (with Fig. 16)
+Figure space_05(Output& output);     ///< ideal structures embedded, likewise
+Figure space_06(Output& output);     ///< cylinders (with Fig. 8)
+Figure space_09(Output& output);     ///< a torus with a hole (with Figs 12 and 15)
+Figure space_10(Output& output);     ///< a torus with 19 holes (with Fig. 19), likewise
+Figure space_14(Output& output);     ///< a sphere with six holes
+Figure space_17(Output& output);     ///< two references, likewise
+Figure space_18(Output& output);     ///< a part with sharp edges
+Figure space_20(Output& output);     ///< a double torus
+Figure space_steps(Output& output);  ///< line search and passes of smoothing
+
 }  // namespace beltrami::gallery
