@@ -39,6 +39,8 @@ void bind_errors(py::module_&) {
             const py::object raised =
                 type(error.what(), py::cast(error.indices()), py::cast(std::string(to_string(error.where().of))));
             PyErr_SetObject(type.ptr(), raised.ptr());
+        } catch (const py::cast_error&) {
+            PyErr_SetString(PyExc_TypeError, "an argument is of another type than the docstring says");
         }
     });
 }

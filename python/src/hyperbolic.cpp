@@ -214,7 +214,8 @@ void bind_classes(py::module_& m) {
     m.def(
         "aligned",
         [](const Mesh& source, const Mesh& target, const std::string& how) {
-            return without_lock([&] { return aligned(source, target, alignment_from(py::str(how))); });
+            const Alignment alignment = alignment_from(py::str(how));
+            return without_lock([&] { return aligned(source, target, alignment); });
         },
         py::arg("source"), py::arg("target"), py::arg("how") = "rigid",
         "#V×3 vertices of a mesh after the rotation that brings it nearest to another one (iterated closest "

@@ -5,6 +5,7 @@
 #include <beltrami/version.h>
 
 #include "calls.h"
+#include "none.h"
 
 PYBIND11_MODULE(_core, m) {
     using namespace beltrami::python;
@@ -66,4 +67,5 @@ PYBIND11_MODULE(_core, m) {
         "How often costly things have been done since the program began, by all threads together: {\"domain_chart\", "
         "\"circle_chart\", \"factorization\"}.");
     m.def("thread_count", &beltrami::thread_count, "Threads that the library uses.");
+    refuse_none(m);
 }

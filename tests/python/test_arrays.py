@@ -8,6 +8,8 @@ import pytest
 
 import beltrami as bt
 
+from every_function import call_everything, callables, good_objects, parameters
+
 GOOD_V = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], dtype=float)
 GOOD_F = np.array([[0, 1, 2], [0, 2, 3]])
 ALLOWED = (bt.Error, TypeError, ValueError, MemoryError, OverflowError)
@@ -226,5 +228,25 @@ def test_1000_random_arrays() -> None:
     assert 0 < random_calls(1000) < 1000
 
 
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("seed", [0, 1])
+def test_every_function(seed: int) -> None:
+    count, succeeded = call_everything(np.random.default_rng(seed), bad_array, ALLOWED)
+    assert count > 250 and 0 < succeeded < count
+
+
+def test_none_is_no_object() -> None:
+    asked = 0
+    for name, function, of_object in callables(good_objects()):
+        if of_object or isinstance(function, type) or "_core." not in parameters(function)[0][1]:
+            continue
+        with pytest.raises(TypeError):
+            function(*[None] * sum(not key.startswith("*") for key, _ in parameters(function)))
+        asked += 1
+    assert asked > 100
+
+
 if __name__ == "__main__":
+    for round_ in range(max(1, int(sys.argv[1]) // 1000)):
+        print(*call_everything(np.random.default_rng(int(sys.argv[2]) + round_), bad_array, ALLOWED), "calls of every function, and succeeded")
     print(random_calls(int(sys.argv[1]), int(sys.argv[2])), "of", sys.argv[1], "calls succeeded")
