@@ -223,6 +223,10 @@ std::vector<int> vertex_list(const py::object& object, const char* name, int ver
 std::vector<std::vector<int>> vertex_lists(const py::object& object, const char* name, int vertex_count) {
     if (!py::isinstance<py::iterable>(object)) throw py::type_error(std::string(name) + " are lists of vertices");
     std::vector<std::vector<int>> lists;
+    constexpr std::size_t most = 1 << 20;  // a broadcast array may be longer than any memory
+    if (py::isinstance<py::sequence>(object) && py::len(object) > most)
+        throw Error(Cause::bad_option, std::string(name) + " are " + std::to_string(py::len(object)) + " lists",
+                    "give " + std::to_string(most) + " at most");
     for (const py::handle item : object)
         lists.push_back(vertex_list(py::reinterpret_borrow<py::object>(item), name, vertex_count));
     return lists;

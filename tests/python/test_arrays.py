@@ -235,6 +235,12 @@ def test_every_function(seed: int) -> None:
     assert count > 250 and 0 < succeeded < count
 
 
+def test_no_lists_beyond_memory() -> None:
+    torus = bt.flat_torus(bt.Surface(bt.torus(2, 1, 8, 6)))
+    with pytest.raises(bt.BadOption):
+        bt.marking_of_paths(torus, [[0, 1], [0, 2]], torus, np.broadcast_to(np.zeros(1, int), (2**40, 3)))
+
+
 def test_none_is_no_object() -> None:
     asked = 0
     for name, function, of_object in callables(good_objects()):
