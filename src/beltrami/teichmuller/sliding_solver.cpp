@@ -5,6 +5,7 @@
 #include <string>
 
 #include <beltrami/base/error.h>
+#include <beltrami/charts/fold_free_disk.h>
 #include <beltrami/starts/sliding_loops.h>
 #include <beltrami/teichmuller/hamilton_options.h>
 #include <beltrami/teichmuller/record.h>
@@ -298,17 +299,30 @@ void SlidingSolver::solve_conformal(ExtremalMap& result) {
 }
 
 /// Opens folds of the map, or of its start, which where the boundary is crowded has fewer: the steps' remainder is
-/// larger than the faces there.
-void SlidingSolver::open_conformal_folds(ExtremalMap& result) const {
-    for (const Eigen::VectorXcd& map : {result.map, begun_.start}) {
-        LocalUnfolding opened = unfold_locally(source(), fixed_or_free(boundary_->freedoms()), map);
-        result.factorizations += opened.factorizations;
-        if (!opened.fold_free) continue;
-        result.map = std::move(opened.map);
+/// larger than the faces there. Where they do not open so, and the whole boundary slides on a circle, its vertices are
+/// spread as far as faces between them need (fold_free_disk.h).
+void SlidingSolver::open_conformal_folds(ExtremalMap& result) {
+    const std::vector<Freedom> freedoms = fixed_or_free(boundary_->freedoms());
+    const auto take = [&](Eigen::VectorXcd map) {
+        result.map = std::move(map);
         result.distortion = distortion(source().operators, result.map);
         result.folds_removed = true;
-        return;
+    };
+    for (const Eigen::VectorXcd& map : {result.map, begun_.start}) {
+        LocalUnfolding opened = unfold_locally(source(), freedoms, map);
+        result.factorizations += opened.factorizations;
+        if (opened.fold_free) return take(std::move(opened.map));
     }
+    const bool slides_freely = source().topology.boundary_loops.size() == 1 && boundary_->loops().size() == 1 &&
+                               problem_->prescribed().vertices.empty() && problem_->marked().vertices.empty();
+    if (!slides_freely || boundary_->loops()[0].curve.kind() != TargetCurve::Kind::circle) return;
+    const TargetCurve& circle = boundary_->loops()[0].curve;
+    const Eigen::VectorXcd in_disk = (result.map.array() - circle.centre()) / circle.radius();
+    FoldFreeDisk opened = fold_free_disk(source(), in_disk);
+    result.factorizations += opened.factorizations;
+    if (!opened.fold_free) return;
+    take(opened.map.array() * circle.radius() + circle.centre());
+    boundary_->adopt(result.map);
 }
 
 /// How far the map obeys its conditions.

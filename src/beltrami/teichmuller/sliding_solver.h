@@ -34,7 +34,7 @@ class SlidingSolver final : public ProblemSolver {
     void record_bounds(const FoundMap& found, const std::optional<FoundMap>& before_evening, ExtremalMap& result) const;
     bool settle_conformal(int max_steps, int& steps);
     void solve_conformal(ExtremalMap& result);
-    void open_conformal_folds(ExtremalMap& result) const;
+    void open_conformal_folds(ExtremalMap& result);
     void record_conditions(ExtremalMap& result) const;
 
     ExtremalOptions options_;
