@@ -97,6 +97,7 @@ const Page& flows() {
          {"flow_sphere", flow_sphere},
          {"flow_unfolding", flow_unfolding},
          {"flow_annulus", flow_annulus},
+         {"flow_curves", flow_curves},
          {"flow_square", flow_square},
          {"flow_tori", flow_tori}}};
     return page;

@@ -212,6 +212,7 @@ Figure flow_disk(Output& output);       ///< Table 5.1
 Figure flow_sphere(Output& output);     ///< Table 5.2
 Figure flow_unfolding(Output& output);  ///< overlapping starts
 Figure flow_annulus(Output& output);    ///< a ring of the wrong module
+Figure flow_curves(Output& output);     ///< curves that go to curves
 Figure flow_square(Output& output);     ///< Table 5.3
 Figure flow_tori(Output& output);       ///< least Lᵖ norm
 
