@@ -99,12 +99,12 @@ void require_embedded(const FlatTorus& torus) {
     const Eigen::Matrix2d dual = dual_of(torus.generators);
     for (int t = 0; t < torus.forms->triangulation.triangle_count(); ++t)
         if (!(double_area(corners_of(torus, dual, t)) > 0))
-            throw Error(
-                Cause::not_solved,
-                "triangles are flipped or collapse on the flat torus: the mesh is too coarse, or has parts too thin for "
-                "double precision",
-                "remesh the surface: more faces, with edges of like length side by side",
-                {Things::faces, {torus.forms->metric.faces[t]}});
+            throw Error(Cause::not_solved,
+                        "triangles are flipped or collapse on the flat torus: the mesh is too coarse, or has parts too "
+                        "thin for "
+                        "double precision",
+                        "remesh the surface: more faces, with edges of like length side by side",
+                        {Things::faces, {torus.forms->metric.faces[t]}});
 }
 
 }  // namespace

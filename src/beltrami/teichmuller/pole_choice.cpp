@@ -39,12 +39,12 @@ constexpr double kPerhapsTight = 16, kFallsLikeSmooth = 1.5;
 /// Directions of held vertices that turn by less (radians) are kept.
 constexpr double kTurned = 0.02;
 
-/// Whether the outer loop goes to a circle.
+/// Whether the outer loop goes to a circle; that of a triangle or of a rectangle always lies on one.
 bool goes_to_circle(const std::vector<int>& loop, const Eigen::VectorXcd& map) {
     std::vector<Complex> images;
     images.reserve(loop.size());
     for (const int v : loop) images.push_back(map[v]);
-    return loop.size() >= 3 && fit_circle(images).exact();
+    return loop.size() > 4 && fit_circle(images).exact();
 }
 
 /// Leaves so many functions at corners as a c-step can do with.
