@@ -4,6 +4,9 @@
 //     bench_remesh [--features DEGREES] [--holes N] [--noise A] [--fixed-border] [--out FOLDER] MESH... [--part EDGE]
 //                  [--double-torus EDGE]
 //
+// As in docs/remesh.md: the noisy torus is punctured_torus with --noise .3 --holes 19 --fixed-border, the part
+// --features 40 --noise .3 --part .08, the double torus --double-torus .14.
+//
 // --holes cuts N disks of two rings at farthest points, --noise moves vertices by A of their shortest edge along the
 // surface first, not those of features; --out has data of pictures for gallery/draw.py; --part is the plate of
 // cad_part.h, --double-torus that of generate/. Where CGAL is (libcgal-dev), its isotropic remeshing stands beside, at
