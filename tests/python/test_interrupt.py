@@ -13,7 +13,7 @@ import beltrami as bt
 from solves import Solve, harmonic_seconds, heard_after, processor_seconds, with_progress, without_progress
 
 KINDS = list(with_progress(4))
-LARGE = ["map", "onto", "register", "flow", "remesh", "deform", "mips"]  # of each kind of loop one
+LARGE = ["map", "turns", "onto", "register", "flow", "remesh", "deform", "mips"]  # of each kind of loop one
 OTHERS = ["sphere_map", "distance", "hyperbolic"]
 
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <beltrami/base/error.h>
+#include <beltrami/base/unless_stopped.h>
 
 namespace beltrami {
 
@@ -27,6 +28,10 @@ StopWhen::StopWhen(std::function<bool()> wanted)
 StopWhen::~StopWhen() {
     innermost = state_->outer;
     delete state_;
+}
+
+bool stop_possible() {
+    return innermost != nullptr;
 }
 
 void stop_if_wanted() {

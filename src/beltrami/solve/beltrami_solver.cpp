@@ -8,6 +8,7 @@
 
 #include <beltrami/base/error.h>
 #include <beltrami/base/parallel.h>
+#include <beltrami/base/unless_stopped.h>
 #include <beltrami/linear/element_system.h>
 
 namespace beltrami {
@@ -32,7 +33,8 @@ struct BeltramiSolver::Implementation {
     bool decoupled;
     std::vector<int> first_unknown;  // #V, −1 if fixed; a free vertex of the coupled system has this one and the next
     std::vector<int> owner;          // unknown → vertex
-    std::unique_ptr<ElementSystem> system;
+    std::shared_ptr<ElementSystem> system;
+    std::shared_future<void> left;  ///< a factorisation that was not waited for
     Eigen::VectorXcd nu, directions;
 
     Implementation(const Surface& source, std::vector<Freedom> f, int expected_factorizations)
@@ -59,7 +61,7 @@ struct BeltramiSolver::Implementation {
             }
             offsets.push_back(static_cast<int>(unknowns.size()));
         }
-        system = std::make_unique<ElementSystem>(std::move(offsets), std::move(unknowns),
+        system = std::make_shared<ElementSystem>(std::move(offsets), std::move(unknowns),
                                                  static_cast<int>(owner.size()), expected_factorizations);
     }
 
@@ -90,6 +92,7 @@ struct BeltramiSolver::Implementation {
 
     /// @param extra_diagonal see factorize; may be empty
     void assemble(const Eigen::VectorXd& extra_diagonal) {
+        if (left.valid()) left.wait();
         system->clear();
         std::array<Complex, kMostUnknowns> d;
         std::array<double, kMostUnknowns*(kMostUnknowns + 1) / 2> lower;
@@ -218,7 +221,7 @@ struct BeltramiSolver::Implementation {
     /// Factorises the assembled matrix; failures name vertices instead of unknowns.
     void factorize() {
         try {
-            system->factorize();
+            run_unless_stopped([system = system] { system->factorize(); }, left);
         } catch (const Error& error) {
             std::vector<int> vertices;
             for (const int unknown : error.indices()) vertices.push_back(owner[unknown]);

@@ -1,10 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <future>
+#include <memory>
 #include <thread>
 
 #include <beltrami/base/error.h>
 #include <beltrami/base/parallel.h>
 #include <beltrami/base/stop.h>
+#include <beltrami/base/unless_stopped.h>
 
 namespace beltrami {
 namespace {
@@ -52,6 +56,42 @@ TEST(StopWhen, GivesWayToTheOneBefore) {
         EXPECT_FALSE(stops());
     }
     EXPECT_TRUE(stops());
+}
+
+/// What cannot ask is not waited for; whoever needs its end can.
+TEST(StopWhen, LeavesWorkThatCannotAsk) {
+    std::shared_future<void> left;
+    const std::thread::id here = std::this_thread::get_id();
+    run_unless_stopped([&] { EXPECT_EQ(std::this_thread::get_id(), here); }, left);
+    EXPECT_FALSE(left.valid());
+    EXPECT_THROW(run_unless_stopped([] { throw Error(Cause::not_solved, "a cause"); }, left), Error);
+
+    auto go = std::make_shared<std::promise<void>>();
+    auto ended = std::make_shared<std::atomic<bool>>(false);
+    {
+        bool wanted = false;
+        const StopWhen stop([&] { return wanted; });
+        run_unless_stopped([&] { EXPECT_NE(std::this_thread::get_id(), here); }, left);
+        EXPECT_THROW(run_unless_stopped([] { throw Error(Cause::not_solved, "a cause"); }, left), Error);
+        EXPECT_FALSE(left.valid());
+        wanted = true;
+        try {
+            run_unless_stopped(
+                [go, ended] {
+                    go->get_future().wait();
+                    *ended = true;
+                },
+                left);
+            ADD_FAILURE() << "not stopped";
+        } catch (const Error& error) {
+            EXPECT_EQ(error.cause(), Cause::cancelled);
+        }
+    }
+    ASSERT_TRUE(left.valid());
+    EXPECT_FALSE(*ended);
+    go->set_value();
+    left.wait();
+    EXPECT_TRUE(*ended);
 }
 
 }  // namespace
