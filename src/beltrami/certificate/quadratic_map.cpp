@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <beltrami/base/error.h>
+#include <beltrami/base/stop.h>
 #include <beltrami/coefficient/differential_quadrature.h>
 #include <beltrami/constraints/inner_constraints.h>
 
@@ -168,6 +169,7 @@ std::vector<int> straighten(const Surface& source, QuadraticMap& map) {
     const int vertices = source.operators.vertex_count;
     std::vector<int> bad;
     for (int round = 0; round < kMostRounds; ++round) {
+        stop_if_wanted();
         bad.clear();
         for (int f = 0; f < source.operators.sample_count(); ++f)
             if (!positive(derivatives(source, f, map), kProofDepth)) bad.push_back(f);
@@ -206,6 +208,7 @@ std::vector<int> mend(const Surface& source, QuadraticMap& map, const Eigen::Vec
 ReichStrebel reich_strebel_quadratic(const Surface& source, const Chart& chart, const DifferentialSpace& space,
                                      const Eigen::VectorXcd& coefficients, const QuadraticMap& map) {
     require_triangles(source);
+    stop_if_wanted();
     std::vector<Derivatives> linear;
     linear.reserve(source.operators.weights.size());
     for (int f = 0; f < source.operators.sample_count(); ++f) {

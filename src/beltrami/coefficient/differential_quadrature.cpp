@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <beltrami/base/parallel.h>
+#include <beltrami/base/stop.h>
 
 namespace beltrami {
 
@@ -222,6 +223,7 @@ double visit_quadrature(const Surface& source, const Chart& chart, const Differe
                     if (std::isfinite(std::norm(p.phi))) total += p.weight * std::sqrt(std::norm(p.phi));
             }
             for (int i = begin; i < end; ++i) {
+                if ((i - begin) % kPiecesAtOnce == 0) stop_if_wanted();
                 const FacePoint* own = &points[static_cast<std::size_t>(kPoints) * (i - begin)];
                 const auto [part, varies] = spread(own, options.variation);
                 if (!std::isfinite(part)) return std::numeric_limits<double>::infinity();

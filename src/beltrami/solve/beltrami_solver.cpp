@@ -22,6 +22,8 @@ constexpr int kMostUnknowns = 8;  // of one sample: a quad with four free corner
 /// Conjugate gradients with an old factor: best accuracy, and how many steps are cheaper than a new factorisation.
 constexpr double kNearTolerance = 1e-11;
 constexpr int kMostNearSteps = 7;
+/// Unknowns from which on a factorisation takes longer than whoever wants it stopped should wait.
+constexpr int kLarge = 10000;
 /// Right-hand sides that are assembled in one pass over the samples.
 constexpr int kOffsetsAtOnce = 6;
 
@@ -61,8 +63,12 @@ struct BeltramiSolver::Implementation {
             }
             offsets.push_back(static_cast<int>(unknowns.size()));
         }
-        system = std::make_shared<ElementSystem>(std::move(offsets), std::move(unknowns),
-                                                 static_cast<int>(owner.size()), expected_factorizations);
+        const int count = static_cast<int>(owner.size());
+        const auto made = std::make_shared<std::shared_ptr<ElementSystem>>();
+        unless_stopped([=, o = std::move(offsets), u = std::move(unknowns)]() mutable {
+            *made = std::make_shared<ElementSystem>(std::move(o), std::move(u), count, expected_factorizations);
+        });
+        system = *made;
     }
 
     /// D of every unknown of an element, in the order of system->nodes; returns their number.
@@ -218,10 +224,16 @@ struct BeltramiSolver::Implementation {
         return f;
     }
 
+    /// The work on a large system that cannot be stopped is not waited for then.
+    void unless_stopped(std::function<void()> work) {
+        if (static_cast<int>(owner.size()) < kLarge) return work();
+        run_unless_stopped(std::move(work), left);
+    }
+
     /// Factorises the assembled matrix; failures name vertices instead of unknowns.
     void factorize() {
         try {
-            run_unless_stopped([system = system] { system->factorize(); }, left);
+            unless_stopped([system = system] { system->factorize(); });
         } catch (const Error& error) {
             std::vector<int> vertices;
             for (const int unknown : error.indices()) vertices.push_back(owner[unknown]);
