@@ -104,7 +104,7 @@ void PoleChoice::take_form_products() {
 HamiltonState PoleChoice::choose(ProblemChart charts, bool plain) {
     const Surface& source = problem_.source();
     const auto& loops = source.topology.boundary_loops;
-    round_image_ = loops.size() == 1 && goes_to_circle(loops[0], problem_.harmonic());
+    round_image_ = problem_.is_disk_in_space() && goes_to_circle(loops[0], problem_.harmonic());
     HamiltonState state;
     instead_ = std::move(charts.instead);
     elongated_ = plain && loops.size() == 1 && boundary_.lines.empty() &&
