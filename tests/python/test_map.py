@@ -250,3 +250,12 @@ def test_options_have_names(disk: bt.Surface) -> None:
         bt.extremal_map(disk, "disk")
     with pytest.raises(bt.BadOption):
         bt.boundary_to_disk(disk, loop=1)
+
+
+@pytest.mark.parametrize("vertex", [1000, -1])
+def test_vertices_out_of_range(vertex: int) -> None:
+    surface = bt.Surface(bt.disk(3))
+    boundary = bt.BoundaryCondition()
+    boundary.pin(vertex, 0.5)
+    with pytest.raises(bt.BadBoundary, match=f"vertex {vertex} is pinned"):
+        bt.unprescribed_boundary(surface, boundary)

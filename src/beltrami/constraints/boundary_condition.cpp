@@ -7,6 +7,18 @@
 
 namespace beltrami {
 
+namespace {
+
+void require_vertex(int v, int vertices) {
+    if (v >= 0 && v < vertices) return;
+    throw Error(Cause::bad_boundary,
+                "vertex " + std::to_string(v) + " is pinned, but the mesh has the vertices 0 to " +
+                    std::to_string(vertices - 1),
+                "vertices are counted from 0 in file order", {Things::vertices, {v}});
+}
+
+}  // namespace
+
 void validate(const BoundaryCondition& boundary, const Surface& source) {
     if (boundary.vertices.size() != boundary.images.size())
         throw Error(Cause::bad_boundary, "the boundary condition has " + std::to_string(boundary.vertices.size()) +
@@ -14,11 +26,7 @@ void validate(const BoundaryCondition& boundary, const Surface& source) {
     const int n = source.mesh.vertex_count();
     std::vector<char> seen(n, 0);
     const auto see = [&](int v) {
-        if (v < 0 || v >= n)
-            throw Error(Cause::bad_boundary,
-                        "vertex " + std::to_string(v) + " is pinned, but the mesh has the vertices 0 to " +
-                            std::to_string(n - 1),
-                        "vertices are counted from 0 in file order", {Things::vertices, {v}});
+        require_vertex(v, n);
         if (seen[v])
             throw Error(Cause::bad_boundary, "vertex " + std::to_string(v) + " is pinned twice",
                         "give one image per vertex", {Things::vertices, {v}});
@@ -44,7 +52,10 @@ void validate(const BoundaryCondition& boundary, const Surface& source) {
 
 std::vector<int> unprescribed_boundary(const BoundaryCondition& boundary, const Surface& source) {
     std::vector<char> pinned(source.mesh.vertex_count(), 0);
-    for (const int v : boundary.vertices) pinned[v] = 1;
+    for (const int v : boundary.vertices) {
+        require_vertex(v, source.mesh.vertex_count());
+        pinned[v] = 1;
+    }
     std::vector<int> missing;
     for (const auto& loop : source.topology.boundary_loops)
         for (const int v : loop)

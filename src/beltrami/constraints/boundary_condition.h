@@ -33,6 +33,7 @@ struct BoundaryCondition {
 void validate(const BoundaryCondition& boundary, const Surface& source);
 
 /// Boundary vertices that @p boundary does not prescribe, loop by loop.
+/// @throw Error bad_boundary if a vertex is out of range
 std::vector<int> unprescribed_boundary(const BoundaryCondition& boundary, const Surface& source);
 
 /// @throw Error bad_boundary naming the loops that are not wholly prescribed
