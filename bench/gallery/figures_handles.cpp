@@ -4,8 +4,6 @@
 #include <memory>
 
 #include <beltrami/base/random.h>
-#include <beltrami/io/atomic_file.h>
-#include <beltrami/report/dendrogram.h>
 
 #include "gallery/handles.h"
 #include "problems/level_surface.h"
@@ -355,24 +353,9 @@ Figure genus_distance(Output& output) {
         surfaces.emplace_back(
             bench::level_double_torus(deformations[i].edge / 14, deformations[i].stretch, i % 2 == 1));
     const DistanceMatrix found = handle_distances(surfaces, Alignment::none, {}, names);
-    Table table{"Less wide, wide and narrow: y times " + kLessWide.name + ", " + kWide.name + " and " + kNarrow.name +
-                    ". In brackets the estimates of bounds",
-                {""},
-                {}};
-    for (const std::string& name : names) table.head.push_back(name);
-    for (Eigen::Index i = 0; i < found.distance.rows(); ++i) {
-        std::vector<std::string> row{names[static_cast<std::size_t>(i)]};
-        for (Eigen::Index j = 0; j < found.distance.cols(); ++j)
-            row.push_back(i == j ? "0"
-                                 : number(found.distance(i, j)) + " (" + number(found.lower(i, j)) + " to " +
-                                       number(found.upper(i, j)) + ")");
-        table.rows.push_back(std::move(row));
-    }
-    figure.tables.push_back(std::move(table));
-    write_atomically(output.folder() / "genus_distance.svg",
-                     render_dendrogram(names, found.distance, cluster_by_distance(found.distance)));
-    figure.pictures.push_back(
-        {"genus_distance", "The matrix and the tree of its clusters.", {svg_panel("genus_distance.svg")}});
+    add_distances(output, figure, "genus_distance", names, found,
+                  "Less wide, wide and narrow: y times " + kLessWide.name + ", " + kWide.name + " and " + kNarrow.name +
+                      ". In brackets the estimates of bounds");
     return figure;
 }
 

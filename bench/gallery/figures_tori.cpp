@@ -60,14 +60,7 @@ Table periods_of_revolution() {
 /// A map with the flat coordinates of the source drawn on both tori.
 Picture picture_of(Output& output, const std::string& name, const std::string& caption, const Surface& source,
                    const FlatTorus& flat, const TorusMap& map) {
-    const Mesh cut = cut_along_seams(source.mesh, flat.layout);
-    Mesh image = cut;
-    for (std::size_t c = 0; c < flat.layout.corners.size(); ++c)
-        image.positions.row(flat.layout.corners[c]) = map.positions.row(source.mesh.faces.vertices()[c]);
-    Eigen::VectorXcd plane(cut.vertex_count());
-    for (int v = 0; v < cut.vertex_count(); ++v) plane[v] = {flat.layout.points(v, 0), flat.layout.points(v, 1)};
-    const std::string from = output.write(name, cut, plane, map.distortion.face_abs_mu),
-                      to = output.write(name + "_image", image, plane, map.distortion.face_abs_mu);
+    const auto [from, to] = output.write_cut(name, source.mesh, flat.layout, map.positions, map.distortion.face_abs_mu);
     return {name,
             caption,
             {faces_panel(from, "the source, cut open and flat"), surface_panel(from, "source", "checker", 30, 45),

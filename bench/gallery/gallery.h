@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -74,6 +75,10 @@ class Output {
     std::string write(const std::string& name, const Surface& surface, const Solved& solved);
     /// The same with other values of the faces in place of |μ|.
     std::string write(const std::string& name, const Mesh& mesh, const Eigen::VectorXcd& map, Eigen::VectorXd values);
+    /// A closed surface cut open along the seams of a layout, and its image in space cut likewise; the files' names.
+    /// @param image #V×3 where the surface's vertices go
+    std::array<std::string, 2> write_cut(const std::string& name, const Mesh& mesh, const TextureCoordinates& layout,
+                                         const Positions& image, const Eigen::VectorXd& values);
     const std::filesystem::path& folder() const { return folder_; }
 
   private:
@@ -132,6 +137,10 @@ std::string scientific(double value);  ///< 1.2e-05
 /// Head and cells that most tables share.
 std::vector<std::string> usual_head(const std::string& first);
 std::vector<std::string> usual_row(const std::string& first, const Solved& solved);
+
+/// A matrix of distances with its bounds as a table, and the tree of its clusters as a picture of that name.
+void add_distances(Output& output, Figure& figure, const std::string& name, const std::vector<std::string>& names,
+                   const DistanceMatrix& found, const std::string& caption = "");
 
 /// Solves one problem with several methods; rows to the table, flat pictures and views of the surface to the figure.
 struct Comparison {

@@ -44,14 +44,8 @@ Picture handle_picture(Output& output, const std::string& name, const std::strin
                        const HyperbolicShape& source, const HyperbolicMap& map, double azimuth, double elevation) {
     const Surface& surface = source.surface();
     const HyperbolicDomain domain = hyperbolic_domain(surface, source.metric());
-    const Mesh cut = cut_along_seams(surface.mesh, domain.layout);
-    Mesh image = cut;
-    for (std::size_t c = 0; c < domain.layout.corners.size(); ++c)
-        image.positions.row(domain.layout.corners[c]) = map.positions.row(surface.mesh.faces.vertices()[c]);
-    Eigen::VectorXcd plane(cut.vertex_count());
-    for (int v = 0; v < cut.vertex_count(); ++v) plane[v] = {domain.layout.points(v, 0), domain.layout.points(v, 1)};
-    const std::string here = output.write(name, cut, plane, map.distortion.face_abs_mu),
-                      there = output.write(name + "_image", image, plane, map.distortion.face_abs_mu);
+    const auto [here, there] =
+        output.write_cut(name, surface.mesh, domain.layout, map.positions, map.distortion.face_abs_mu);
     const double shown = std::clamp(1.6 * map.k, 0.05, 1.0);
     return {name,
             caption,

@@ -2,6 +2,10 @@
 
 #include <cmath>
 
+#include <beltrami/io/atomic_file.h>
+#include <beltrami/mesh/texture_map.h>
+#include <beltrami/report/dendrogram.h>
+
 #include "gallery/gallery.h"
 
 namespace beltrami::gallery {
@@ -26,6 +30,18 @@ std::string Output::write(const std::string& name, const Mesh& mesh, const Eigen
         if (!std::isfinite(values[f])) values[f] = 1e30;
     write_mesh(folder_ / (name + ".ply"), {mesh, map, {{"abs_mu", values}}});
     return name + ".ply";
+}
+
+std::array<std::string, 2> Output::write_cut(const std::string& name, const Mesh& mesh,
+                                             const TextureCoordinates& layout, const Positions& image,
+                                             const Eigen::VectorXd& values) {
+    const Mesh cut = cut_along_seams(mesh, layout);
+    Mesh moved = cut;
+    for (std::size_t c = 0; c < layout.corners.size(); ++c)
+        moved.positions.row(layout.corners[c]) = image.row(mesh.faces.vertices()[c]);
+    Eigen::VectorXcd plane(cut.vertex_count());
+    for (int v = 0; v < cut.vertex_count(); ++v) plane[v] = {layout.points(v, 0), layout.points(v, 1)};
+    return {write(name, cut, plane, values), write(name + "_image", moved, plane, values)};
 }
 
 json map_panel(const std::string& data, const std::string& title, double max_mu, const std::string& domain,
@@ -126,6 +142,24 @@ std::vector<std::string> usual_row(const std::string& first, const Solved& solve
             (solved.iterations > 0 ? std::to_string(solved.iterations) : "") +
                 (solved.end.empty() || solved.end == "converged" ? "" : " (" + solved.end + ")"),
             solved.seconds > 0 ? number(solved.seconds, 2) : ""};
+}
+
+void add_distances(Output& output, Figure& figure, const std::string& name, const std::vector<std::string>& names,
+                   const DistanceMatrix& found, const std::string& caption) {
+    Table table{caption, {""}, {}};
+    table.head.insert(table.head.end(), names.begin(), names.end());
+    for (Eigen::Index i = 0; i < found.distance.rows(); ++i) {
+        std::vector<std::string> row{names[static_cast<std::size_t>(i)]};
+        for (Eigen::Index j = 0; j < found.distance.cols(); ++j)
+            row.push_back(i == j ? "0"
+                                 : number(found.distance(i, j)) + " (" + number(found.lower(i, j)) + " to " +
+                                       number(found.upper(i, j)) + ")");
+        table.rows.push_back(std::move(row));
+    }
+    figure.tables.push_back(std::move(table));
+    write_atomically(output.folder() / (name + ".svg"),
+                     render_dendrogram(names, found.distance, cluster_by_distance(found.distance)));
+    figure.pictures.push_back({name, "The matrix and the tree of its clusters.", {svg_panel(name + ".svg")}});
 }
 
 }  // namespace beltrami::gallery

@@ -1,10 +1,8 @@
 // Scans, if the folder BELTRAMI_MESHES has them: maps onto domains and surfaces, and grids.
-#include <beltrami/io/atomic_file.h>
 #include <beltrami/io/read_mesh.h>
 #include <beltrami/mesh/cut.h>
 #include <beltrami/mesh/subdivide.h>
 #include <beltrami/mesh/submesh.h>
-#include <beltrami/report/dendrogram.h>
 
 #include <algorithm>
 #include <cmath>
@@ -282,22 +280,7 @@ Figure sliding_distance_scans(Output& output) {
     for (const Mesh& mesh : {face, read_mesh(*planar).mesh, deformed(face), *second, deformed(*second)})
         surfaces.emplace_back(mesh);
     const DistanceMatrix matrix = distance_matrix(surfaces, {}, {}, {}, names);
-    Table table{"", {""}, {}};
-    table.head.insert(table.head.end(), names.begin(), names.end());
-    for (int i = 0; i < matrix.distance.rows(); ++i) {
-        std::vector<std::string> row{names[i]};
-        for (int j = 0; j < matrix.distance.cols(); ++j)
-            row.push_back(i == j ? "0"
-                                 : number(matrix.distance(i, j)) + " (" + number(matrix.lower(i, j)) + " to " +
-                                       number(matrix.upper(i, j)) + ")");
-        table.rows.push_back(std::move(row));
-    }
-    figure.tables.push_back(std::move(table));
-    write_atomically(output.folder() / "sliding_distance_scans.svg",
-                     render_dendrogram(names, matrix.distance, cluster_by_distance(matrix.distance)));
-    figure.pictures.push_back({"sliding_distance_scans",
-                               "The matrix and the tree of its clusters.",
-                               {svg_panel("sliding_distance_scans.svg")}});
+    add_distances(output, figure, "sliding_distance_scans", names, matrix);
     figure.remarks.push_back("Pairs that have not settled: " + std::to_string(matrix.unsettled.size()) + ".");
     return figure;
 }
