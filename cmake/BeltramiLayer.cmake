@@ -1,11 +1,13 @@
 # One folder of src/beltrami is one layer. Each layer is an object library whose include path holds its own headers and
 # those of the layers it may use, nothing else: an #include of a layer further down does not compile.
 #
-#   beltrami_layer(<name> [USES <layer>...] [LIBRARIES <target>...] [WITHOUT <file>...] [PRIVATE <header>...])
+#   beltrami_layer(<name> [USES <layer>...] [LIBRARIES <target>...] [WITHOUT <file>...] [PRIVATE <header>...]
+#                  [ALONE <file>...])
 #
 # USES names the layers directly above; theirs come along. LIBRARIES are private third-party targets. WITHOUT names
 # files of the folder that beltrami_choice() compiles, of which a library takes one. PRIVATE headers are seen by the layer
-# itself and its tests alone.
+# itself and its tests alone. Files are compiled few at a time (BELTRAMI_QUICK_BUILD), but for those ALONE, which give the
+# names of others in their folder another meaning.
 set(BELTRAMI_LAYERS "" CACHE INTERNAL "")
 
 # Links in the folder <open> to the headers of <folder> that are not private.
@@ -28,7 +30,7 @@ function(beltrami_own_headers layer target)
 endfunction()
 
 function(beltrami_layer name)
-    cmake_parse_arguments(ARG "" "" "USES;LIBRARIES;WITHOUT;PRIVATE" ${ARGN})
+    cmake_parse_arguments(ARG "" "" "USES;LIBRARIES;WITHOUT;PRIVATE;ALONE" ${ARGN})
     set(folder ${CMAKE_CURRENT_SOURCE_DIR}/src/beltrami/${name})
     file(GLOB sources CONFIGURE_DEPENDS ${folder}/*.cpp ${folder}/*.h)
     list(TRANSFORM ARG_WITHOUT PREPEND ${folder}/)
@@ -61,6 +63,8 @@ function(beltrami_layer name)
     set_target_properties(beltrami_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON
         CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
     beltrami_precompile(layers beltrami_${name})
+    list(TRANSFORM ARG_ALONE PREPEND ${folder}/)
+    beltrami_few_at_a_time(beltrami_${name} ${ARG_ALONE})
     set(BELTRAMI_LAYERS ${BELTRAMI_LAYERS} ${name} CACHE INTERNAL "")
 endfunction()
 

@@ -13,3 +13,12 @@ function(beltrami_precompile family target)
     target_precompile_headers(${target} PRIVATE <Eigen/Core> <Eigen/Geometry> <Eigen/SparseCore> <algorithm> <array> <cmath>
         <complex> <functional> <limits> <memory> <numbers> <numeric> <optional> <random> <string> <utility> <vector> ${ARGN})
 endfunction()
+
+# Compiles the files of a target few at a time: what they share is read and instantiated once for all of them. Those in
+# ARGN stay alone.
+function(beltrami_few_at_a_time target)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ${BELTRAMI_QUICK_BUILD} UNITY_BUILD_BATCH_SIZE 6)
+    if(ARGN)
+        set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    endif()
+endfunction()

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/meshing/delaunay.h>
 
 #include "problems/construct.h"
@@ -12,7 +13,6 @@ namespace beltrami::bench {
 
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
 /// Edges at transitions, as part of h², and at pins, as part of h: what is pinned inside moves its faces, and the
 /// smaller these are the farther. Elsewhere h (r/from)^kExponent, but no more than this part of r.
 constexpr double kFinestTransition = 0.1, kFinestPin = 0.03, kExponent = 0.75, kSlope = 0.3;

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include <beltrami/base/constants.h>
 
 namespace beltrami::bench {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// 1 up to inner, 0 from outer on, a cubic with flat ends in between.
 double plateau(double r, double inner, double outer) {
@@ -94,7 +93,7 @@ PlaneMap composition(std::vector<PlaneMap> steps) {
 std::function<PlaneMap(double)> random_homeomorphisms(Random& random, const std::vector<Complex>& centres) {
     std::vector<std::function<PlaneMap(double)>> families;
     const auto sign = [&] { return random.uniform() < 0.5 ? -1.0 : 1.0; };
-    const auto angle = [&] { return random.uniform(-pi, pi); };
+    const auto angle = [&] { return random.uniform(-kPi, kPi); };
     const int steps = 2 + static_cast<int>(random.next() % 4);
     for (int i = 0; i < steps; ++i) {
         // Drawn one after the other, in an order that the language fixes.

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/charts/boundary_values.h>
 #include <beltrami/charts/circle_domain_chart.h>
 
@@ -17,8 +18,6 @@ namespace beltrami::bench {
 
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
-constexpr Complex kI(0, 1);
 /// Edges at the hole of a ring, as part of the others.
 constexpr double kHoleEdge = 0.4;
 

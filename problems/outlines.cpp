@@ -1,13 +1,12 @@
 #include "problems/outlines.h"
 
 #include <cmath>
-#include <numbers>
+
+#include <beltrami/base/constants.h>
 
 namespace beltrami::bench {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 Eigen::Vector2d polar(double radius, double angle) {
     return {radius * std::cos(angle), radius * std::sin(angle)};
@@ -18,7 +17,7 @@ Eigen::Vector2d polar(double radius, double angle) {
 Polygon gear(int teeth, double root_radius, double outer_radius) {
     Polygon result;
     for (int t = 0; t < teeth; ++t) {
-        const double pitch = 2 * pi / teeth, middle = t * pitch;
+        const double pitch = 2 * kPi / teeth, middle = t * pitch;
         result.push_back(polar(outer_radius, middle - 0.17 * pitch));
         result.push_back(polar(outer_radius, middle + 0.17 * pitch));
         result.push_back(polar(root_radius, middle + 0.28 * pitch));
@@ -29,7 +28,7 @@ Polygon gear(int teeth, double root_radius, double outer_radius) {
 
 Polygon notched_circle(int notches, double width, double tip_radius, int corner_count) {
     Polygon result;
-    const double pitch = 2 * pi / notches, half = std::asin(width / 2);
+    const double pitch = 2 * kPi / notches, half = std::asin(width / 2);
     const int per_arc = corner_count / notches;
     for (int n = 0; n < notches; ++n) {
         const double middle = n * pitch;
@@ -42,7 +41,7 @@ Polygon notched_circle(int notches, double width, double tip_radius, int corner_
 
 Polygon regular(int corners, Eigen::Vector2d centre, double radius, double angle) {
     Polygon result;
-    for (int i = 0; i < corners; ++i) result.push_back(centre + polar(radius, angle + 2 * pi * i / corners));
+    for (int i = 0; i < corners; ++i) result.push_back(centre + polar(radius, angle + 2 * kPi * i / corners));
     return result;
 }
 

@@ -1,7 +1,7 @@
 // Simply connected problems in the plane.
 #include <cmath>
-#include <numbers>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/charts/boundary_values.h>
 #include <beltrami/generate/grids.h>
 #include <beltrami/generate/round_domains.h>
@@ -15,8 +15,6 @@
 namespace beltrami::bench {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 Mesh unit_disk(double edge_length) {
     return disk(disk_rings_for_edge_length(edge_length));
@@ -104,11 +102,11 @@ Problem three_lobes_graded(double edge_length) {
 Problem three_lobes_anisotropic(double edge_length) {
     // A mesh of an ellipse, stretched back to the disk: edges are five times longer along one direction.
     constexpr double ratio = 5;
-    const int corners = static_cast<int>(std::ceil(2 * pi / edge_length));
+    const int corners = static_cast<int>(std::ceil(2 * kPi / edge_length));
     const Complex along = std::polar(1.0, 0.5);
     Polygon outline;
     for (int i = 0; i < corners; ++i) {
-        const Complex z = std::polar(1.0, 2 * pi * i / corners) * std::conj(along);
+        const Complex z = std::polar(1.0, 2 * kPi * i / corners) * std::conj(along);
         outline.push_back({z.real() / std::sqrt(ratio), z.imag() * std::sqrt(ratio)});
     }
     Mesh mesh = polygon_mesh(outline, edge_length);
@@ -121,7 +119,7 @@ Problem three_lobes_anisotropic(double edge_length) {
 }
 
 Problem four_points(double edge_length) {
-    const DiskRectangle from(pi / 4), to(pi / 8);
+    const DiskRectangle from(kPi / 4), to(kPi / 8);
     const double across = to.width() / from.width(), up = to.height() / from.height();
     const double ratio = std::max(across / up, up / across);
     const auto f = [&](Complex z) {

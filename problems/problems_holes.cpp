@@ -1,7 +1,7 @@
 // Multiply connected problems in the plane.
 #include <cmath>
-#include <numbers>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/generate/round_domains.h>
 #include <beltrami/operators/distortion.h>
 
@@ -10,8 +10,6 @@
 namespace beltrami::bench {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 Mesh disk_with_holes(const std::vector<Circle>& holes, double edge_length, double hole_edge_length = 0) {
     DomainOptions options;
@@ -22,7 +20,7 @@ Mesh disk_with_holes(const std::vector<Circle>& holes, double edge_length, doubl
 
 /// Radii r0 … 1 at even shape: edges are as long as the size wants at the outer rim, shorter inside.
 Mesh round_annulus(double inner, double edge_length) {
-    return annulus(inner, 1, std::max(8, static_cast<int>(std::lround(2 * pi / edge_length))));
+    return annulus(inner, 1, std::max(8, static_cast<int>(std::lround(2 * kPi / edge_length))));
 }
 
 }  // namespace
@@ -36,7 +34,7 @@ Problem ring(double edge_length) {
 
 // In log z the map is linear, [[κ, 0], [s, 1]] on (log r, angle), and s turns the inner circle by s·log(r0).
 Problem annulus_turns(double edge_length, int turns) {
-    const double r0 = 0.05, kappa = 1.5, s = 2 * pi * turns / std::log(r0);
+    const double r0 = 0.05, kappa = 1.5, s = 2 * kPi * turns / std::log(r0);
     const double sum = kappa * kappa + s * s + 1, root = std::sqrt(sum * sum - 4 * kappa * kappa);
     const double K = (sum + root) / (2 * kappa);  // σmax/σmin = σmax²/det
     Problem problem = with_exact_map(

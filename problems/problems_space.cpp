@@ -2,9 +2,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/generate/grids.h>
 #include <beltrami/generate/sphere.h>
 #include <beltrami/mesh/submesh.h>
@@ -16,8 +16,6 @@
 namespace beltrami::bench {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 using Lift = std::function<Eigen::Vector3d(double x, double y)>;
 
@@ -42,7 +40,7 @@ Problem screw(double edge_length) {
     constexpr int starts = 3;
     constexpr double spacing = 0.9, depth = 0.22, height = 3, inner = 0.45;
     // A step along the axis turns the thread by one column, so that its edges run through vertices.
-    const int nu = 6 * std::max(2, static_cast<int>(std::lround(2 * pi / edge_length / 6)));
+    const int nu = 6 * std::max(2, static_cast<int>(std::lround(2 * kPi / edge_length / 6)));
     const double step = spacing * starts / nu;
     const int nz = static_cast<int>(std::lround(height / step));
     Mesh mesh = cylinder(1, nz * step, nu, nz);
@@ -53,7 +51,7 @@ Problem screw(double edge_length) {
     for (int i = 0; i < nu; ++i)
         for (int j = 0; j <= nz; ++j) {
             const int v = i * (nz + 1) + j;
-            const double angle = 2 * pi * i / nu, along = static_cast<double>(j) / nz;
+            const double angle = 2 * kPi * i / nu, along = static_cast<double>(j) / nz;
             // Threads fade at both ends, where the rims are round.
             const int phase = ((i * starts + j * starts) % nu + nu) % nu;
             const double tooth = std::abs(2.0 * phase / nu - 1);  // 1 on the sharp edge, 0 half way to the next
@@ -124,7 +122,7 @@ Problem cad_part(double edge_length) {
             radius = 3.2 - 0.1 * s;
             height = s;
         } else if (s < 2) {  // a hollow round
-            const double a = (s - 1) * pi / 2;
+            const double a = (s - 1) * kPi / 2;
             radius = 3.1 - 0.7 * (1 - std::cos(a));
             height = 1 + 0.7 * std::sin(a);
         } else if (s < 3) {
@@ -134,7 +132,7 @@ Problem cad_part(double edge_length) {
             radius = 1.6 - 0.55 * (s - 3);
             height = 1.7 - 0.6 * (s - 3);
         }
-        const double between = s > 1 && s < 2 ? std::sin(pi * (s - 1)) : 0.0;
+        const double between = s > 1 && s < 2 ? std::sin(kPi * (s - 1)) : 0.0;
         const double rib = 0.8 * between * std::max(0.0, t - 1.5) / 1.5;
         const double angle = -0.42 * t * (1 + 0.15 * std::sin(2 * s)), swell = 1 + 0.06 * t * t / 3;
         return Eigen::Vector3d((radius + rib) * swell * std::cos(angle), (radius + rib) * swell * std::sin(angle),
@@ -211,7 +209,7 @@ Problem curved_plate(double edge_length) {
     const double angles[] = {0.5, -0.3, 0.7, -0.6, 0.2, -0.45};
     for (int i = 0; i < 6; ++i) {
         const Complex centre(1.1 + 1.9 * (i % 3), 1.1 + 1.8 * (i / 3));
-        holes.push_back(regular(4, point(centre), 0.5, pi / 4 + angles[i]));
+        holes.push_back(regular(4, point(centre), 0.5, kPi / 4 + angles[i]));
         turns.push_back(rigid_turn(centre, -angles[i], 0.5, 0.88));
     }
     DomainOptions options;
@@ -290,7 +288,7 @@ Problem pierced_ball(double edge_length) {
         const double start = std::arg(project(mesh.point(loop[0])) - middle);
         double run = 0;
         for (std::size_t i = 0; i < loop.size(); ++i) {
-            const double angle = start + (l == 0 ? 1 : -1) * 2 * pi * run / length;
+            const double angle = start + (l == 0 ? 1 : -1) * 2 * kPi * run / length;
             problem.boundary.pin(loop[i], centre + std::polar(radius, angle));
             run += (mesh.point(loop[(i + 1) % loop.size()]) - mesh.point(loop[i])).norm();
         }

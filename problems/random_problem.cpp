@@ -3,8 +3,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/error.h>
 #include <beltrami/base/random.h>
 #include <beltrami/meshing/planar_domains.h>
@@ -16,8 +16,6 @@
 namespace beltrami::bench {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 int whole(Random& random, int low, int high) {
     return low + static_cast<int>(random.next() % static_cast<std::uint64_t>(high - low + 1));
@@ -38,7 +36,7 @@ struct Outline {
 /// About the unit disk; smooth ones in pieces of about the edge length.
 Outline random_outline(Random& random, double edge_length) {
     const int kind = whole(random, 0, 5);
-    const int pieces = std::clamp(static_cast<int>(2 * pi / edge_length), 16, 2000);
+    const int pieces = std::clamp(static_cast<int>(2 * kPi / edge_length), 16, 2000);
     Polygon result;
     if (kind == 0) return {regular(pieces, {0, 0}, 1, 0), "disk"};
     if (kind == 1) {
@@ -50,10 +48,10 @@ Outline random_outline(Random& random, double edge_length) {
         double amplitude[5], phase[5];
         for (int j = 0; j < 5; ++j) {
             amplitude[j] = random.uniform(0, 0.5) / (j + 2);
-            phase[j] = random.uniform(0, 2 * pi);
+            phase[j] = random.uniform(0, 2 * kPi);
         }
         for (int i = 0; i < pieces; ++i) {
-            const double t = 2 * pi * i / pieces;
+            const double t = 2 * kPi * i / pieces;
             double r = 1;
             for (int j = 0; j < 5; ++j) r += amplitude[j] * std::cos((j + 2) * t + phase[j]);
             result.push_back({r * std::cos(t), r * std::sin(t)});
@@ -69,9 +67,9 @@ Outline random_outline(Random& random, double edge_length) {
         return {{{-1, -1}, {1, -1}, {1, b}, {a, b}, {a, 1}, {-1, 1}}, "L-shape"};
     }
     const int corners = whole(random, 3, 9);
-    const double turn = random.uniform(0, 2 * pi);
+    const double turn = random.uniform(0, 2 * kPi);
     for (int i = 0; i < corners; ++i) {
-        const double t = turn + 2 * pi * (i + random.uniform(-0.25, 0.25)) / corners;
+        const double t = turn + 2 * kPi * (i + random.uniform(-0.25, 0.25)) / corners;
         const double r = random.uniform(0.65, 1.1);
         result.push_back({r * std::cos(t), r * std::sin(t)});
     }
@@ -100,8 +98,8 @@ bool inside(const Polygon& polygon, const Eigen::Vector2d& p) {
 
 Polygon random_hole(Random& random, const Circle& room, double edge_length) {
     const int kind = whole(random, 0, 3);
-    const double turn = random.uniform(0, 2 * pi);
-    const int pieces = std::clamp(static_cast<int>(2 * pi * room.radius / edge_length), 6, 400);
+    const double turn = random.uniform(0, 2 * kPi);
+    const int pieces = std::clamp(static_cast<int>(2 * kPi * room.radius / edge_length), 6, 400);
     if (kind == 0) return regular(pieces, room.centre, room.radius, turn);
     if (kind == 1) return regular(whole(random, 3, 6), room.centre, room.radius, turn);
     // An ellipse, a slit-like one every other time.
@@ -148,7 +146,8 @@ RandomDomain random_domain(Random& random) {
     DomainOptions options;
     options.edge_length = edge_length;
     // Drawn in any case, so that the kinds of meshes share what follows.
-    const double amplitude = random.uniform(0.2, 0.5), ratio = log_uniform(random, 2, 6), along = random.uniform(0, pi);
+    const double amplitude = random.uniform(0.2, 0.5), ratio = log_uniform(random, 2, 6),
+                 along = random.uniform(0, kPi);
     const Eigen::Vector2d source(random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5));
     options.jitter.seed = random.next();
     Eigen::Matrix2d stretch = Eigen::Matrix2d::Identity();

@@ -1,6 +1,7 @@
 // What Teichmüller maps look like nearby: 1 and 4 (drawn from closed forms), 5, 6.
 #include "gallery/gallery.h"
 
+#include <beltrami/base/constants.h>
 #include <beltrami/generate/grids.h>
 #include <beltrami/generate/round_domains.h>
 #include <beltrami/io/read_mesh.h>
@@ -11,13 +12,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <numbers>
 
 namespace beltrami::gallery {
 
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 using Chain = std::vector<Complex>;
 using PlaneFunction = std::function<Complex(Complex)>;

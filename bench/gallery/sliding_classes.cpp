@@ -1,4 +1,5 @@
 // Homotopy classes and starts; distances of shapes.
+#include <beltrami/base/constants.h>
 #include <beltrami/io/atomic_file.h>
 #include <beltrami/mesh/planar.h>
 #include <beltrami/report/dendrogram.h>
@@ -7,15 +8,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "gallery/sliding.h"
 
 namespace beltrami::gallery {
 
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 void changing_places(Output& output, Figure& figure) {
     Table table{

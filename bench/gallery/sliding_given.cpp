@@ -2,8 +2,8 @@
 // values (Fig. 2), and how |μ| becomes even (Fig. 3).
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/mesh/planar.h>
 
 #include "gallery/sliding.h"
@@ -11,8 +11,6 @@
 namespace beltrami::gallery {
 
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// Boundary values that nobody has chosen well: every circle to its partner, angle t to t + a sin(t + b) + c.
 BoundaryCondition uneven_boundary(const Surface& source, const std::vector<Hole>& from, const std::vector<Hole>& to) {

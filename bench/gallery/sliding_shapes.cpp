@@ -1,11 +1,11 @@
 // More holes, arbitrary shapes and sizes, seconds.
+#include <beltrami/base/constants.h>
 #include <beltrami/report/timing.h>
 #include <beltrami/solve/beltrami_solver.h>
 
 #include <algorithm>
 #include <cmath>
 #include <ctime>
-#include <numbers>
 
 #include "gallery/sliding.h"
 
@@ -13,7 +13,6 @@ namespace beltrami::gallery {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kEdge = 0.02;
 
 /// One hole in the middle and eight around it.

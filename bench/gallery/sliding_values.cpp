@@ -1,8 +1,8 @@
 // Known values of k, Example 4, and orders of convergence.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/mesh/planar.h>
 
 #include "gallery/sliding.h"
@@ -12,7 +12,6 @@ namespace beltrami::gallery {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kEdge = 0.02;
 
 const std::vector<Hole> kExample4Source{{0, 0.33, 0.1}, {0.33, -0.33, 0.067}, {-0.33, -0.33, 0.133}};

@@ -2,11 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <ostream>
 
 #include "support/onto.h"
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/error.h>
 #include <beltrami/generate/grids.h>
 #include <beltrami/mesh/planar.h>
@@ -20,8 +20,6 @@ using test::circles_target;
 using test::disk_with_holes;
 using test::expect_sliding_sound;
 using test::Hole;
-
-constexpr double kPi = std::numbers::pi;
 
 TEST(SlidingRing, ConvergesToTheRadialStretchWithSecondOrder) {
     const double exact = std::log(0.3) / std::log(0.5);

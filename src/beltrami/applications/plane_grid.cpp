@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/error.h>
 
 namespace beltrami {
 
 namespace {
-
-constexpr double kTurn = 2 * std::numbers::pi;
 
 bool finite(Complex z) {
     return std::isfinite(z.real()) && std::isfinite(z.imag());

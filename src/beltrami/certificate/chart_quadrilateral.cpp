@@ -3,16 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/certificate/modulus.h>
 
 namespace beltrami {
 
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
 /// Least edges of a side, and the part of the rim where that has few.
 constexpr int kSide = 8, kSidesOfRim = 8;
 /// Vertices of which all quadrilaterals are looked at, and how many of the best are moved from there.

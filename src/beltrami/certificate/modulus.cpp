@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/mesh/strip.h>
 #include <beltrami/solve/laplacian.h>
 
@@ -12,7 +11,6 @@ namespace beltrami {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 /// Images are on a side of a rectangle within this part of its size.
 constexpr double kOnSide = 1e-12;
 /// Largest cosine of an angle that is taken for a right one.

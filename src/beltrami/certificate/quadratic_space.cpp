@@ -3,16 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/parallel.h>
 
 namespace beltrami {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Bernstein bounds are subdivided so often where they exceed what is attained, and where they prove nothing.
 constexpr int kDepth = 4, kProofDepth = 9;
 /// A bound may be larger by this part than what is attained.

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/error.h>
 #include <beltrami/charts/domain_chart.h>
 #include <beltrami/charts/shape.h>
@@ -17,7 +18,6 @@ namespace beltrami {
 
 namespace {
 
-constexpr double kTwoPi = 2 * std::numbers::pi;
 /// A polygon's corner that turns by more than this receives a vertex.
 constexpr double kCornerTurn = 10 * std::numbers::pi / 180;
 
@@ -65,7 +65,7 @@ std::vector<double> conformal_angles(const Surface& source, const Loop& loop, co
                         std::arg(chart.vertices[loop.vertices[i]] / chart.vertices[loop.vertices[i - 1]]));
     // At a corner of angle α the map's boundary values move like s^{π/α}; at convex ones neighbouring vertices come so
     // near each other that discretisation can exchange them.
-    make_increasing(angle, kTwoPi, loop.arc);
+    make_increasing(angle, kTurn, loop.arc);
     const double start = angle[0];
     for (double& a : angle) a -= start;
     return angle;
@@ -132,7 +132,7 @@ BoundaryCondition boundary_to_disk(const Surface& source, double amplitude, cons
     if (placement.speed == BoundarySpeed::conformal) {
         angle = conformal_angles(source, loop, placement.shape);
     } else {
-        for (std::size_t i = 0; i < loop.size(); ++i) angle.push_back(kTwoPi * loop.arc[i] / loop.total());
+        for (std::size_t i = 0; i < loop.size(); ++i) angle.push_back(kTurn * loop.arc[i] / loop.total());
     }
     BoundaryCondition boundary;
     for (std::size_t i = 0; i < loop.size(); ++i)
@@ -221,10 +221,10 @@ BoundaryCondition boundary_to_polygon(const Surface& source, const std::vector<C
         for (const int v : around.vertices)
             points.emplace_back(target.mesh.positions(v, 0), target.mesh.positions(v, 1));
         along = conformal_angles(target, around);
-        along.push_back(kTwoPi);
+        along.push_back(kTurn);
         parameter = conformal_angles(source, loop, placement.shape);
-        for (double& a : along) a /= kTwoPi;
-        for (double& t : parameter) t /= kTwoPi;
+        for (double& a : along) a /= kTurn;
+        for (double& t : parameter) t /= kTurn;
     }
     const auto turn = [&](std::size_t i) {
         const std::size_t m = points.size();
@@ -270,7 +270,7 @@ BoundaryCondition hole_to_circle(const Surface& source, int loop, Complex centre
     const Loop hole = loop_from(source, loop, {});
     BoundaryCondition boundary;
     for (std::size_t i = 0; i < hole.size(); ++i)
-        boundary.pin(hole.vertices[i], centre + std::polar(radius, start_angle - kTwoPi * hole.arc[i] / hole.total()));
+        boundary.pin(hole.vertices[i], centre + std::polar(radius, start_angle - kTurn * hole.arc[i] / hole.total()));
     return boundary;
 }
 

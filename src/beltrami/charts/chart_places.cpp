@@ -2,17 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/error.h>
 #include <beltrami/base/parallel.h>
 
 namespace beltrami {
 
 namespace {
-
-constexpr double kTurn = 2 * std::numbers::pi;
 
 /// In [0, 2π).
 double wrapped(double angle) {

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
+
+#include <beltrami/base/constants.h>
 
 namespace beltrami {
 
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 constexpr double kLeastShare = 0.2;        // of an increment in proportion to the edge's length
 constexpr int kNearby = 4;                 // edges on either side with which one is compared

@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/charts/circle_rims.h>
 
 namespace beltrami {
 
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 constexpr double kMostNegative = 0.4;  // curvature of a circle, half the diagonal of the rest on an even rim
 constexpr double kRounding = 1e-15;    // of energies, which are at most about 3

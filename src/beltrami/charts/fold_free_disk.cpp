@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <optional>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/charts/round_disk.h>
 #include <beltrami/operators/distortion.h>
 #include <beltrami/plane/increasing.h>
@@ -17,7 +17,6 @@ namespace beltrami {
 
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
 /// Least angle of a boundary edge, as a part of the mean of those around it, or, where that leaves folds, of what arc
 /// length would give it: faces with three vertices on a rim of 1e-9 are smaller than rounding.
 constexpr double kOfNeighbours = 1e-3, kOfLength[] = {1e-5, 1e-3};

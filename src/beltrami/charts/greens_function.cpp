@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <queue>
 #include <utility>
 #include <vector>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/error.h>
 #include <beltrami/base/parallel.h>
 #include <beltrami/mesh/submesh.h>
@@ -16,8 +16,6 @@
 namespace beltrami {
 
 namespace {
-
-constexpr double kTwoPi = 2 * std::numbers::pi;
 
 /// Faces of the patch: the error of Green's function falls with the square of its radius in edges, its cost grows with
 /// its faces.
@@ -173,7 +171,7 @@ std::optional<Singular> singular_part(const Surface& source, int pole, const Eig
     }
     if (start < 0 || !(radius > kLeastEdges * radius_at_pole)) return {};
     const std::vector<char> turns = turns_at_cut(source, pole_face, &result.cut_corner);
-    const auto turn = [&](int corner) { return turns[corner] ? kTwoPi : 0.0; };
+    const auto turn = [&](int corner) { return turns[corner] ? kTurn : 0.0; };
     std::vector<char> known(n, 0);
     std::vector<int> queue{start};
     waiting[start] = 0;
@@ -250,14 +248,14 @@ Eigen::VectorXcd conjugate_by_flux(const Surface& source, const BeltramiSolver& 
     const std::size_t last_before_cut = static_cast<std::size_t>(cut - loop.begin());
     if (cut != loop.end())  // half of the turn on either half of the edge
         for (const std::size_t i : {last_before_cut, last_before_cut + 1})
-            increase[loop[i % loop.size()]] += 0.5 * kTwoPi;
+            increase[loop[i % loop.size()]] += 0.5 * kTurn;
     // From the middle of the edge before a vertex to the middle of the edge after it; at the vertex between the two.
     Eigen::VectorXcd boundary = values;
     double middle = 0;
     for (std::size_t i = 0; i < loop.size(); ++i) {
         const double before = lengths[(i + loop.size() - 1) % loop.size()], after = lengths[i];
         const double whole = middle + increase[loop[i]] * before / (before + after);
-        boundary[loop[i]].imag(whole - (i > last_before_cut ? kTwoPi : 0.0));
+        boundary[loop[i]].imag(whole - (i > last_before_cut ? kTurn : 0.0));
         middle += increase[loop[i]];
     }
     return dirichlet.solve(boundary, offset);

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/charts/greens_function.h>
 #include <beltrami/charts/vertex_source.h>
 #include <beltrami/plane/circle_fit.h>
@@ -14,8 +14,6 @@
 namespace beltrami {
 
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// The real harmonic function with the values of @p boundary on the boundary.
 Eigen::VectorXd harmonic_extension(const BeltramiSolver& dirichlet, const Eigen::VectorXd& boundary) {

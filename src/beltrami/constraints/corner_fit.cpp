@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <Eigen/Dense>
+
+#include <beltrami/base/constants.h>
 
 namespace beltrami::detail {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Points of one curve on one side of a vertex, nearest along the curve first.

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <utility>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/disjoint_sets.h>
 #include <beltrami/plane/polygon.h>
 
@@ -14,7 +14,6 @@ namespace beltrami {
 
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
 /// Along a piece over which a function changes by less than this part of its size its argument turns no further than
 /// the ends show.
 constexpr double kQuiet = 0.5;

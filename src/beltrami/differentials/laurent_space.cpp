@@ -3,9 +3,9 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <sstream>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/error.h>
 #include <beltrami/differentials/dimension.h>
 #include <beltrami/differentials/gauss_rule.h>
@@ -17,7 +17,6 @@ namespace beltrami {
 
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
 /// A power of which less than this part is new is left out.
 constexpr double kDependent = 1e-11;
 /// Cholesky factors orthonormalise columns of which so much is new.

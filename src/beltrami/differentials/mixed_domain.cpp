@@ -2,17 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/differentials/gauss_rule.h>
 #include <beltrami/plane/circle_fit.h>
 
 namespace beltrami {
 
 namespace {
-
-constexpr double kTurn = 2 * std::numbers::pi;
-constexpr Complex kI(0, 1);
 
 /// Length of the panel next to a singular end, as part of the part; each further one reaches this much farther.
 constexpr double kFinest = 1e-5, kRatio = 1.8, kShiftedRatio = 1.65;

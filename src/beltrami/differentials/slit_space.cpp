@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/differentials/orthonormal_columns.h>
 #include <beltrami/differentials/pulled_back.h>
 #include <beltrami/plane/circle_fit.h>
@@ -13,7 +14,6 @@ namespace beltrami {
 
 namespace {
 
-constexpr Complex kI(0, 1);
 /// A function of which less than this part is new is left out.
 constexpr double kDependent = 1e-7;
 /// Least power of J, and the largest of those that a simple pole or less at ∞ needs: of the first slit these cancel the

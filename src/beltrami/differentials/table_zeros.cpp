@@ -3,11 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <optional>
 #include <tuple>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/disjoint_sets.h>
 #include <beltrami/differentials/argument_principle.h>
 #include <beltrami/mesh/quad_split.h>
@@ -17,7 +16,6 @@ namespace beltrami {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 /// φ is real along a loop if the mean of |Im φ(e, e)|/|φ| over its edges is less than this (of any φ it is 2/π):
 /// of one found as real there, on noisy rims, and of any other.
 constexpr double kRealByCondition = 0.5, kReal = 0.1;

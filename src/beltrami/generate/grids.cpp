@@ -2,15 +2,13 @@
 
 #include <cmath>
 #include <initializer_list>
-#include <numbers>
 #include <string>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/error.h>
 
 namespace beltrami {
 namespace {
-
-constexpr double turn = 2.0 * std::numbers::pi;
 
 void require(const char* what, bool lengths_good, int n, int least_n, int m, int least_m) {
     if (lengths_good && n >= least_n && m >= least_m && 1.0 * n * m < 1.5e8) return;
@@ -82,7 +80,7 @@ Mesh torus(double major, double minor, int nu, int nv, Cells cells) {
     reserve(mesh.faces, cells, nu, nv);
     for (int i = 0; i < nu; ++i) {
         for (int j = 0; j < nv; ++j) {
-            const double u = turn * i / nu, v = turn * j / nv;
+            const double u = kTurn * i / nu, v = kTurn * j / nv;
             const double distance = major + minor * std::cos(v);
             mesh.positions.row(i * nv + j) << distance * std::cos(u), distance * std::sin(u), minor * std::sin(v);
             const int right = (i + 1) % nu, up = (j + 1) % nv;
@@ -99,7 +97,7 @@ Mesh cylinder(double radius, double height, int nu, int nz, Cells cells) {
     mesh.positions.resize(static_cast<Eigen::Index>(nu) * rows, 3);
     reserve(mesh.faces, cells, nu, nz);
     for (int i = 0; i < nu; ++i) {
-        const double u = turn * i / nu;
+        const double u = kTurn * i / nu;
         for (int j = 0; j < rows; ++j) {
             mesh.positions.row(i * rows + j) << radius * std::cos(u), radius * std::sin(u), height * j / nz;
             const int right = (i + 1) % nu;

@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/error.h>
 
 namespace beltrami {
 namespace {
 
-constexpr double turn = 2.0 * std::numbers::pi;
 constexpr int most_rings = 7000;  // 294 million triangles, near what int indices can hold
 
 }  // namespace
@@ -29,7 +28,7 @@ Mesh disk(int rings, double radius, const JitterOptions& jitter) {
     for (int ring = 1; ring <= rings; ++ring) {
         const double r = ring == rings ? radius : radius * ring / rings;
         for (int i = 0; i < 6 * ring; ++i) {
-            const double angle = turn * i / (6 * ring);
+            const double angle = kTurn * i / (6 * ring);
             mesh.positions.row(first_of(ring) + i) << r * std::cos(angle), r * std::sin(angle);
         }
     }
@@ -70,7 +69,7 @@ Mesh annulus(double inner, double outer, int around, int layers, const JitterOpt
     }
     const double height = std::log(outer / inner);
     if (layers == 0)
-        layers = std::max(2, static_cast<int>(std::lround(height / (turn / around * std::sqrt(3.0) / 2.0))));
+        layers = std::max(2, static_cast<int>(std::lround(height / (kTurn / around * std::sqrt(3.0) / 2.0))));
     if (1.0 * around * (layers + 1.0) > 1e8) {
         throw Error(Cause::bad_option, "the annulus would have more than 100 million vertices", "give fewer");
     }
@@ -79,7 +78,7 @@ Mesh annulus(double inner, double outer, int around, int layers, const JitterOpt
     for (int ring = 0; ring <= layers; ++ring) {
         const double r = ring == layers ? outer : inner * std::exp(height * ring / layers);
         for (int i = 0; i < around; ++i) {
-            const double angle = turn * (i + 0.5 * (ring % 2)) / around;
+            const double angle = kTurn * (i + 0.5 * (ring % 2)) / around;
             mesh.positions.row(ring * around + i) << r * std::cos(angle), r * std::sin(angle);
         }
     }

@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <string>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/error.h>
 #include <beltrami/homotopy/homotopy.h>
 #include <beltrami/operators/distortion.h>
@@ -19,7 +19,6 @@ namespace beltrami {
 
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
 /// Centres nearer than this part of the outer loop's diameter count as meeting.
 constexpr double kMeeting = 1e-3;
 /// A loop is not shrunk below this part of its size.

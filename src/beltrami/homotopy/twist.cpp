@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/error.h>
 #include <beltrami/operators/distortion.h>
 #include <beltrami/plane/inside_polygon.h>
@@ -16,8 +16,6 @@
 namespace beltrami {
 
 namespace {
-
-constexpr double kTurn = 2 * std::numbers::pi;
 
 void require_turns_per_loop(const Surface& source, const std::vector<int>& turns) {
     const std::size_t loops = source.topology.boundary_loops.size();

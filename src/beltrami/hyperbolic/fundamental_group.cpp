@@ -6,19 +6,14 @@
 #include <queue>
 #include <tuple>
 
+#include <beltrami/hyperbolic/halfedges.h>
+
 namespace beltrami {
 
 namespace {
 
 using Entry = std::tuple<double, int, int>;  // cost, number, half-edge
 using Heap = std::priority_queue<Entry, std::vector<Entry>, std::greater<>>;
-
-int next(int h) {
-    return IntrinsicTriangulation::next(h);
-}
-int previous(int h) {
-    return IntrinsicTriangulation::previous(h);
-}
 
 std::vector<std::vector<int>> halfedges_from(const IntrinsicTriangulation& triangulation) {
     std::vector<std::vector<int>> result(static_cast<std::size_t>(triangulation.vertex_count()));
@@ -230,8 +225,8 @@ std::vector<Letter> boundary_word(const IntrinsicTriangulation& triangulation, c
     int h = first;
     do {
         if (letter[h] >= 0) word.push_back({letter[h], h != tree.generators[static_cast<std::size_t>(letter[h])]});
-        h = next(h);
-        while (crossed[h]) h = next(triangulation.twin(h));
+        h = next_halfedge(h);
+        while (crossed[h]) h = next_halfedge(triangulation.twin(h));
     } while (h != first);
     return word;
 }
@@ -251,7 +246,7 @@ double fill_by_flatness(const IntrinsicTriangulation& triangulation, const CutTr
     for (auto t = tree.triangle_order.rbegin(); t != tree.triangle_order.rend(); ++t) {
         const int h = tree.to_triangle[*t];
         if (h < 0) continue;
-        steps[h] = (steps[next(h)] * steps[previous(h)]).inverse();
+        steps[h] = (steps[next_halfedge(h)] * steps[previous_halfedge(h)]).inverse();
         steps[triangulation.twin(h)] = steps[h].inverse();
     }
     const int root = 3 * tree.triangle_order.front();

@@ -9,19 +9,13 @@
 
 #include <beltrami/base/disjoint_sets.h>
 #include <beltrami/hyperbolic/fundamental_group.h>
+#include <beltrami/hyperbolic/halfedges.h>
 
 namespace beltrami {
 
 namespace {
 
 constexpr double kSamePlace = 1e-6;  // hyperbolic distance; others differ by a deck transformation
-
-int next(int h) {
-    return IntrinsicTriangulation::next(h);
-}
-int previous(int h) {
-    return IntrinsicTriangulation::previous(h);
-}
 
 /// Frames of all corners of all triangles in the disk.
 std::vector<DiskIsometry> develop(const HyperbolicSurface& surface) {
@@ -33,11 +27,11 @@ std::vector<DiskIsometry> develop(const HyperbolicSurface& surface) {
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
     const auto beyond = [&](int h) {  // the frame of the apex of the neighbour
         const int g = triangulation.twin(h);
-        return (frames[h] * surface.step(next(g))).normalized();
+        return (frames[h] * surface.step(next_halfedge(g))).normalized();
     };
     const auto push = [&](int h) {
         if (triangulation.twin(h) >= own) return;
-        const Complex sum = frames[h].place() + frames[next(h)].place() + beyond(h).place();
+        const Complex sum = frames[h].place() + frames[next_halfedge(h)].place() + beyond(h).place();
         queue.emplace(std::abs(sum) / 3, h);
     };
     frames[1] = surface.step(0);
@@ -49,10 +43,10 @@ std::vector<DiskIsometry> develop(const HyperbolicSurface& surface) {
         queue.pop();
         if (placed[g / 3]) continue;
         placed[g / 3] = 1;
-        frames[g] = frames[next(h)];
-        frames[next(g)] = frames[h];
-        frames[previous(g)] = beyond(h);
-        for (const int other : {next(g), previous(g)}) push(other);
+        frames[g] = frames[next_halfedge(h)];
+        frames[next_halfedge(g)] = frames[h];
+        frames[previous_halfedge(g)] = beyond(h);
+        for (const int other : {next_halfedge(g), previous_halfedge(g)}) push(other);
     }
     return frames;
 }
@@ -76,9 +70,9 @@ TextureCoordinates layout_of(const Surface& surface, const HyperbolicSurface& me
     const auto same = [&](int a, int b) { return (frames[a].inverse() * frames[b]).distance() < kSamePlace; };
     for (int h = 0; h < 3 * metric.own_triangles(); ++h) {
         const int g = triangulation.twin(h);
-        if (g < 3 * metric.own_triangles() && same(h, next(g)) && same(next(h), g)) {
-            corners.join(h, next(g));
-            corners.join(next(h), g);
+        if (g < 3 * metric.own_triangles() && same(h, next_halfedge(g)) && same(next_halfedge(h), g)) {
+            corners.join(h, next_halfedge(g));
+            corners.join(next_halfedge(h), g);
         }
     }
     TextureCoordinates layout;

@@ -10,19 +10,13 @@
 
 #include <beltrami/base/error.h>
 #include <beltrami/base/parallel.h>
+#include <beltrami/hyperbolic/halfedges.h>
 #include <beltrami/hyperbolic/target_walk.h>
 #include <beltrami/uniformize/edge_flips.h>
 
 namespace beltrami {
 
 namespace {
-
-int next(int h) {
-    return IntrinsicTriangulation::next(h);
-}
-int previous(int h) {
-    return IntrinsicTriangulation::previous(h);
-}
 
 /// The quadrilateral i l j k of an edge i→j that has become l→k, as vectors of the light cone whose products are the
 /// squares of the lengths: l = α i + β j + γ k, γ < 0.
@@ -33,7 +27,8 @@ struct LightCone {
         const int h = flip.halfedge, g = flip.twin;
         const double unit = flip.log_length;
         const auto square = [&](int halfedge) { return std::exp(2 * (flipped.log_length(halfedge) - unit)); };
-        const double ki = square(next(h)), il = square(previous(h)), lj = square(next(g)), jk = square(previous(g));
+        const double ki = square(next_halfedge(h)), il = square(previous_halfedge(h)), lj = square(next_halfedge(g)),
+                     jk = square(previous_halfedge(g));
         Eigen::Matrix3d products;
         products << 0, 1, ki, 1, 0, jk, ki, jk, 0;
         const Eigen::Vector3d combination = products.inverse() * Eigen::Vector3d(il, lj, square(h));
@@ -67,8 +62,10 @@ std::vector<IntrinsicPoint> before_ptolemy(IntrinsicTriangulation flipped, const
                 for (int c = 0; c < 3; ++c) points[p].weights[(first % 3 + c) % 3] = std::max(0.0, w[c]) / sum;
                 inside[first / 3].push_back(p);
             };
-            for (const int p : of_h) put(p, weight(p, previous(h)), 0, weight(p, next(h)), weight(p, h));
-            for (const int p : of_g) put(p, 0, weight(p, previous(g)), weight(p, g), weight(p, next(g)));
+            for (const int p : of_h)
+                put(p, weight(p, previous_halfedge(h)), 0, weight(p, next_halfedge(h)), weight(p, h));
+            for (const int p : of_g)
+                put(p, 0, weight(p, previous_halfedge(g)), weight(p, g), weight(p, next_halfedge(g)));
         }
         flipped.undo(*last);
     }

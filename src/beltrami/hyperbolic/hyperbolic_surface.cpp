@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 #include <utility>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/error.h>
 #include <beltrami/uniformize/conformal_equivalence.h>
 
@@ -15,7 +15,6 @@ namespace beltrami {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kTolerance = 1e-11;  // of angle sums, radians
 constexpr double kTornFlatness = 1e-6;
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/parallel.h>
 #include <beltrami/mesh/planar.h>
 
@@ -15,7 +16,6 @@ namespace beltrami {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kDegenerateArea = 1e-14;
 constexpr double kAntiConformal = 1e-28;  // of |∂f|²/|∂̄f|²
 

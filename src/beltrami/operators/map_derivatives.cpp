@@ -2,15 +2,13 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <limits>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/parallel.h>
 
 namespace beltrami {
 
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// (∂f, ∂̄f) of a map into space, in an orthonormal frame of the image oriented by the image's vertex normals.
 std::array<Complex, 2> derivatives_in_space(const Operators& source, int sample, const Positions& image,

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/error.h>
 #include <beltrami/plane/polygon.h>
 
@@ -14,7 +15,6 @@ namespace beltrami::detail {
 
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
 constexpr int kArcsOfCircle = 8;
 
 using Box = SegmentTree::Box;

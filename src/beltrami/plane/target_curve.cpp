@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/error.h>
 #include <beltrami/plane/curve_meeting.h>
 #include <beltrami/plane/curve_pieces.h>
@@ -12,8 +12,6 @@
 namespace beltrami {
 
 namespace {
-
-constexpr double kTurn = 2 * std::numbers::pi;
 
 void require_points(const std::vector<Complex>& points, const std::string& what, const std::string& which) {
     const int n = static_cast<int>(points.size());

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/error.h>
 #include <beltrami/base/parallel.h>
 #include <beltrami/base/unless_stopped.h>
@@ -14,8 +15,6 @@
 namespace beltrami {
 
 namespace {
-
-constexpr Complex kI(0, 1);
 
 constexpr int kMostUnknowns = 8;  // of one sample: a quad with four free corners
 

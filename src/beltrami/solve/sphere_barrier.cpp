@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <utility>
 
 #include <Eigen/Geometry>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/error.h>
 #include <beltrami/base/parallel.h>
+#include <beltrami/solve/damping.h>
 #include <beltrami/solve/image_frame.h>
 #include <beltrami/sphere/unit_sphere.h>
 
@@ -18,13 +19,10 @@ namespace beltrami {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kExpectedFactorizations = 20;
 constexpr double kLongestMotion = 0.7;  // radians
 constexpr double kShortest = 1e-6;      // step length below which no step is taken
 constexpr double kShift = 1e-9, kLargestShift = 1e-3;
-constexpr double kShort = 0.3, kNearlyFull = 0.9;  // step lengths at which the damping is raised and lowered
-constexpr double kFirstDamping = 1e-3, kLeastDamping = 1e-5, kDampingFactor = 4;
 constexpr double kNoticeable = 1e-2;
 
 }  // namespace

@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/parallel.h>
 
 namespace beltrami {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kQuantile = 0.9;  // of ψ: its unit for p > 2
 constexpr double kFloor = 0.02;    // of p = 2 beside p > 2
 

@@ -7,6 +7,7 @@
 
 #include <beltrami/base/error.h>
 #include <beltrami/base/parallel.h>
+#include <beltrami/solve/damping.h>
 
 namespace beltrami {
 
@@ -15,8 +16,6 @@ namespace {
 constexpr int kExpectedFactorizations = 20;
 constexpr double kShortest = 1e-6;  // step length below which no step is taken
 constexpr double kShift = 1e-9, kLargestShift = 1e-3;
-constexpr double kShort = 0.3, kNearlyFull = 0.9;  // step lengths at which the damping is raised and lowered
-constexpr double kFirstDamping = 1e-3, kLeastDamping = 1e-5, kDampingFactor = 4;
 constexpr double kHeldUpDamping = 1, kHeldUpFactor = 100;  // where no step is possible at all
 constexpr double kNoticeable = 1e-2;
 constexpr int kMostCorners = 4;

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <string>
 #include <vector>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/error.h>
 #include <beltrami/mesh/topology.h>
 
@@ -14,7 +14,6 @@ namespace beltrami {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kAngleTolerance = 1e-6;    // of the sum of a face's angles, radians
 constexpr double kLargestKept = 0.9 * kPi;  // a corner has to stay one
 

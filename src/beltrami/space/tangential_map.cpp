@@ -3,27 +3,25 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <numeric>
 #include <utility>
 
 #include <Eigen/Geometry>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/error.h>
 #include <beltrami/base/parallel.h>
 #include <beltrami/locate/surface_locator.h>
+#include <beltrami/solve/damping.h>
 
 namespace beltrami {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kExpectedFactorizations = 40;
 constexpr int kMostHalvings = 20;  // of a step, then none is taken
 constexpr double kShift = 1e-10, kLargestShift = 1e-4;
-constexpr double kShort = 0.3, kNearlyFull = 0.9;  // step lengths at which the damping is raised and lowered
-constexpr double kFirstDamping = 1e-3, kLeastDamping = 1e-5, kDampingFactor = 4;
 constexpr double kUndamped = 1e-2;  // below it a small step says that the end is near
 constexpr int kFutileSteps = 5;     // in a row, with more damping each
 constexpr double kCusp = 0.2;       // cosine of a face's normal and the target's

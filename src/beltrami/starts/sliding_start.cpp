@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <string>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/error.h>
 #include <beltrami/homotopy/continuation.h>
 #include <beltrami/operators/distortion.h>
@@ -17,7 +17,6 @@ namespace beltrami {
 
 namespace {
 
-constexpr double kTwoPi = 2 * std::numbers::pi;
 /// Steps on the way of the holes, as part of a straight piece: one that folds is halved.
 constexpr double kLargestStep = 0.5;
 /// Loops that would turn by less, in radians, are not twisted.
@@ -73,23 +72,23 @@ class LoopAngles {
         if (marks.empty()) return;
         std::sort(marks.begin(), marks.end(), [](const Placed& a, const Placed& b) { return a.position < b.position; });
         // Forward from mark to mark; the first in the branch nearest to where it would be.
-        marks[0].turn += kTwoPi * std::round((turns_[marks[0].position] - marks[0].turn) / kTwoPi);
+        marks[0].turn += kTurn * std::round((turns_[marks[0].position] - marks[0].turn) / kTurn);
         for (std::size_t m = 1; m < marks.size(); ++m) {
-            const double ahead = std::fmod(marks[m].turn - marks[m - 1].turn, kTwoPi);
-            marks[m].turn = marks[m - 1].turn + (ahead > 0 ? ahead : ahead + kTwoPi);
+            const double ahead = std::fmod(marks[m].turn - marks[m - 1].turn, kTurn);
+            marks[m].turn = marks[m - 1].turn + (ahead > 0 ? ahead : ahead + kTurn);
         }
         const std::vector<double> old = turns_;
         for (std::size_t m = 0; m < marks.size(); ++m) {
             const bool last = m + 1 == marks.size();
             const int from = marks[m].position, to = last ? marks[0].position + n : marks[m + 1].position;
-            const double begin = marks[m].turn, end = last ? marks[0].turn + kTwoPi : marks[m + 1].turn;
+            const double begin = marks[m].turn, end = last ? marks[0].turn + kTurn : marks[m + 1].turn;
             const auto lifted = [&](int i) { return i < n ? old[i] : old[i - n] + (old[n] - old[0]); };
             for (int i = from; i < to; ++i) {
                 const double part = (lifted(i) - lifted(from)) / (lifted(to) - lifted(from));
-                turns_[i % n] = begin + part * (end - begin) - (i < n ? 0 : kTwoPi);
+                turns_[i % n] = begin + part * (end - begin) - (i < n ? 0 : kTurn);
             }
         }
-        turns_[n] = turns_[0] + kTwoPi;
+        turns_[n] = turns_[0] + kTurn;
     }
 
     const std::vector<int>& vertices_;

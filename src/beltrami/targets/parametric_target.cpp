@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <utility>
 
 #include <Eigen/Geometry>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/error.h>
 
 namespace beltrami {
@@ -17,7 +16,6 @@ namespace {
 constexpr int kGrid = 48;  // places along each parameter
 constexpr int kMostSteps = 60;
 constexpr double kSettled = 1e-14;  // step in the parameters, relative to their ranges
-constexpr double kTurn = 2 * std::numbers::pi;
 
 double into(const ParametricTarget::Range& range, double t) {
     if (!range.periodic) return std::clamp(t, range.first, range.last);

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <utility>
 #include <vector>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/error.h>
 #include <beltrami/linear/element_system.h>
 #include <beltrami/plane/circle_fit.h>
@@ -17,7 +17,6 @@ namespace beltrami {
 
 namespace {
 
-constexpr double kTwoPi = 2 * std::numbers::pi;
 /// Edges farther apart are not coupled in the steps; and the energy of loops with more edges is that of these pairs.
 constexpr int kBand = 16, kMostFullEdges = 1000;
 /// Gauss-Newton steps, and the part of an edge below which they end.
@@ -258,14 +257,14 @@ Eigen::VectorXd rim_angles(const std::vector<int>& rim, const Chart& chart) {
         if (!(angle > 0) && backward++ == 0) first = i;
         angles.push_back(std::max(angle, 0.0));
     }
-    if (static_cast<double>(backward) > kMostBackward * static_cast<double>(n) || !(std::abs(sum - kTwoPi) < 1e-6))
+    if (static_cast<double>(backward) > kMostBackward * static_cast<double>(n) || !(std::abs(sum - kTurn) < 1e-6))
         throw Error(Cause::bad_boundary,
                     "the boundary does not run forward in the conformal chart at vertex " + std::to_string(rim[first]) +
                         ", so its points cannot be moved against their noise",
                     "use no slack, or mend the mesh there", {Things::vertices, {rim[first]}});
     if (backward > 0) raise_to_neighbours(angles, kOfNeighbours);
     const Eigen::Map<const Eigen::VectorXd> result(angles.data(), static_cast<Eigen::Index>(n));
-    return result * (kTwoPi / result.sum());
+    return result * (kTurn / result.sum());
 }
 
 /// The rim in the chart and along the target.

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/locate/planar_locator.h>
 #include <beltrami/meshing/planar_domains.h>
 #include <beltrami/teichmuller/onto_problem.h>
@@ -14,7 +15,6 @@ namespace beltrami {
 
 namespace {
 
-constexpr double kTwoPi = 2 * std::numbers::pi;
 /// Below so many vertices the coarse problem would cost as much as it saves.
 constexpr int kWorthFrom = 4'000;
 /// Triangles of the coarse mesh, not counting what holes ask for; edges around a hole.
@@ -72,7 +72,7 @@ class ParameterByAngle {
         const double turn = turns_[0] + ahead(turns_[0], sign_ * angle);
         const auto next = std::upper_bound(turns_.begin(), turns_.end(), turn);
         const std::size_t i = static_cast<std::size_t>(next - turns_.begin()) - 1, n = turns_.size();
-        const double end_turn = i + 1 < n ? turns_[i + 1] : turns_[0] + kTwoPi,
+        const double end_turn = i + 1 < n ? turns_[i + 1] : turns_[0] + kTurn,
                      end = i + 1 < n ? parameters_[i + 1] : parameters_[0] + length_;
         return parameters_[i] + (turn - turns_[i]) / (end_turn - turns_[i]) * (end - parameters_[i]);
     }
@@ -80,8 +80,8 @@ class ParameterByAngle {
   private:
     /// In [0, 2π).
     static double ahead(double from, double to) {
-        const double d = std::fmod(to - from, kTwoPi);
-        return d < 0 ? d + kTwoPi : d;
+        const double d = std::fmod(to - from, kTurn);
+        return d < 0 ? d + kTurn : d;
     }
     double sign_, length_;
     std::vector<double> turns_, parameters_;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/charts/round_disk.h>
 #include <beltrami/differentials/polynomial_space.h>
 #include <beltrami/generate/round_domains.h>
@@ -14,7 +14,6 @@ namespace beltrami {
 
 namespace {
 
-constexpr double kTwoPi = 2 * std::numbers::pi;
 /// Triangles of the coarse mesh: a part of the samples, within limits.
 constexpr int kCoarsePart = 7, kFewestTriangles = 1'200, kMostTriangles = 5'000;
 
@@ -34,7 +33,7 @@ struct CircleValues {
     Complex at(double turn) const {
         const auto next = std::upper_bound(angle.begin(), angle.end(), turn);
         const std::size_t i = static_cast<std::size_t>(next - angle.begin()) - 1, j = (i + 1) % angle.size();
-        const double end = j == 0 ? kTwoPi : angle[j];
+        const double end = j == 0 ? kTurn : angle[j];
         return image[i] + (turn - angle[i]) / (end - angle[i]) * (image[j] - image[i]);
     }
 };
@@ -53,7 +52,7 @@ CircleValues circle_values(const Surface& source, const BoundaryCondition& bound
         if (!(step > 0)) return {};
         angle += step;
     }
-    if (std::abs(angle - kTwoPi) > 1e-6) return {};
+    if (std::abs(angle - kTurn) > 1e-6) return {};
     return values;
 }
 
@@ -76,7 +75,7 @@ CoarseStart coarse_start(const Surface& source, const BoundaryCondition& boundar
     for (const int v : model.topology.boundary_loops[0]) {
         const Complex z(model.mesh.positions(v, 0), model.mesh.positions(v, 1));
         double turn = std::arg(z / values.first);
-        if (turn < 0) turn += kTwoPi;
+        if (turn < 0) turn += kTurn;
         coarse.pin(v, values.at(turn));
     }
     ExtremalProblem problem(model, coarse, 1);

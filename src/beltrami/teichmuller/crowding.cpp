@@ -1,16 +1,15 @@
 #include <beltrami/teichmuller/crowding.h>
 
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/certificate/chart_quadrilateral.h>
 
 namespace beltrami {
 
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
 /// Values that force so much in a quadrilateral crowd in the chart (camel_b: 5; other scans 1.1 to 1.8).
 constexpr double kCrowded = 3;
 constexpr int kWaves = 6;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/charts/annulus_map.h>
 #include <beltrami/teichmuller/direct_map.h>
 
@@ -12,7 +12,6 @@ namespace beltrami {
 
 namespace {
 
-constexpr double kTwoPi = 2 * std::numbers::pi;
 /// An edge of a loop with less than this part of the mean increment is crowded.
 constexpr double kCrowded = 1e-3;
 /// Centres of circles that differ by less, as part of the radius, are one.
@@ -88,11 +87,11 @@ std::optional<ExtremalMap> direct_map(const Surface& source, const TargetModel& 
     const double stretch = -std::log(concentric.inner);
     result.map.resize(source.mesh.vertex_count());
     for (Eigen::Index v = 0; v < result.map.size(); ++v)
-        result.map[v] = concentric.place(std::polar(std::exp(-stretch * potentials.u[v]), kTwoPi * potentials.v[v]));
+        result.map[v] = concentric.place(std::polar(std::exp(-stretch * potentials.u[v]), kTurn * potentials.v[v]));
     result.distortion = distortion(source.operators, result.map);
     if (!result.distortion.flipped.empty()) return {};
     result.start = result.map;
-    const ModulusBracket modulus = of_target ? *of_target : ModulusBracket{stretch / kTwoPi, stretch / kTwoPi};
+    const ModulusBracket modulus = of_target ? *of_target : ModulusBracket{stretch / kTurn, stretch / kTurn};
     complete_direct(source, potentials.u, modulus.lower / potentials.v_energy, modulus.upper * potentials.u_energy,
                     result);
     result.factorizations = 2 + modulus.factorizations;

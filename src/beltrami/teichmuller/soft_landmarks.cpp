@@ -16,7 +16,7 @@ constexpr int kCarryingSteps = 4;     // of the flow of a move
 constexpr int kSettlingSteps = 4;     // of the map after a move
 constexpr double kLongestMove = 0.5;  // in units of the fields' width
 
-double half_log(double k) {
+double distance_of(double k) {
     return std::atanh(std::clamp(k, 0.0, 1 - 1e-12));
 }
 
@@ -49,7 +49,7 @@ Eigen::VectorXd SoftLandmarks::coordinates() const {
 }
 
 double SoftLandmarks::value() const {
-    double sum = half_log(last_.k);
+    double sum = distance_of(last_.k);
     for (Eigen::Index i = 0; i < weights_.size(); ++i)
         if (std::isfinite(weights_[i])) sum += weights_[i] * (places_.row(i) - wanted_.row(i)).squaredNorm();
     return sum;

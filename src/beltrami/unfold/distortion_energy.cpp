@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/parallel.h>
 
 namespace beltrami {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Samples whose share q^(p−1) of the gradient is below this part of the largest keep this share of curvature, so that
 /// large powers leave no sample without stiffness.
 constexpr double kLeastShare = 1e-6;

@@ -4,12 +4,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 #include <utility>
 
 #include <Eigen/Geometry>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/error.h>
 #include <beltrami/mesh/planar.h>
 #include <beltrami/mesh/topology.h>
@@ -22,7 +22,6 @@ namespace beltrami {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 constexpr int kMostSplitRounds = 40;
 constexpr double kSplitAngle = 0.8 * kPi;  // opposite a boundary edge: split it along with those that must be

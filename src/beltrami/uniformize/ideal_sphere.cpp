@@ -3,16 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/uniformize/flatten_layout.h>
 
 namespace beltrami {
 
 namespace {
 
-constexpr double kTwoPi = 2 * std::numbers::pi;
 constexpr double kTornLayout = 1e-3;  // relative error at which the drawing does not hold together
 // What makes a star uneven, in units of the ratio of its longest to its shortest edge.
 constexpr double kCurvatureCost = 3, kDistanceCost = 6, kFewEdgesCost = 1e3;
@@ -31,7 +30,7 @@ IdealSphere ideal_sphere(const IntrinsicTriangulation& triangulation, int ideal_
     problem.max_iterations = max_iterations;
     problem.stop_when_degenerate = false;
     problem.free = used;
-    problem.target_angles = Eigen::VectorXd::Constant(triangulation.vertex_count(), kTwoPi);
+    problem.target_angles = Eigen::VectorXd::Constant(triangulation.vertex_count(), kTurn);
     for (int v = 0; v < triangulation.vertex_count(); ++v)
         if (!used[v]) problem.target_angles[v] = std::numeric_limits<double>::quiet_NaN();
 
@@ -71,7 +70,7 @@ std::vector<int> ideal_candidates(const IntrinsicTriangulation& triangulation, c
     for (int v = 0; v < n; ++v) {
         if (!simple[v]) continue;
         candidates.push_back(v);
-        cost[v] = std::exp(longest[v] - shortest[v]) + kCurvatureCost * std::abs(angles[v] - kTwoPi) +
+        cost[v] = std::exp(longest[v] - shortest[v]) + kCurvatureCost * std::abs(angles[v] - kTurn) +
                   kDistanceCost * distances[v] + (degrees[v] < 5 ? kFewEdgesCost : 0);
     }
     std::sort(candidates.begin(), candidates.end(),

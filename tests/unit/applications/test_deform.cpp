@@ -2,10 +2,10 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
 
 #include <beltrami/applications/deform.h>
 #include <beltrami/applications/handled_surface.h>
+#include <beltrami/base/constants.h>
 #include <beltrami/generate/grids.h>
 #include <beltrami/generate/sphere.h>
 #include <beltrami/mesh/submesh.h>
@@ -17,8 +17,6 @@
 
 namespace beltrami {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// A torus of revolution without a disk on its outer equator.
 Mesh punctured_torus(int around, int across) {

@@ -1,11 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include <beltrami/applications/fitting_grid.h>
 #include <beltrami/applications/grid_on_surface.h>
 #include <beltrami/applications/reached_corners.h>
+#include <beltrami/base/constants.h>
 #include <beltrami/base/error.h>
 #include <beltrami/generate/round_domains.h>
 #include <beltrami/targets/target_mesh.h>
@@ -15,8 +15,6 @@
 
 namespace beltrami {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 TargetDomain polygon(const std::vector<Complex>& corners) {
     return target_domain(TargetCurve::polygon(corners));

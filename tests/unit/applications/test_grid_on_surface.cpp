@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <numbers>
 
 #include <beltrami/applications/grid_on_surface.h>
+#include <beltrami/base/constants.h>
 #include <beltrami/base/error.h>
 #include <beltrami/charts/boundary_values.h>
 #include <beltrami/charts/round_disk.h>
@@ -20,8 +20,6 @@
 
 namespace beltrami {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 double area_of(const Mesh& mesh) {
     double area = 0;

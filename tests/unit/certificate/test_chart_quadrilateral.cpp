@@ -1,10 +1,10 @@
+#include <beltrami/base/constants.h>
 #include <beltrami/certificate/chart_quadrilateral.h>
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include <beltrami/certificate/modulus.h>
 #include <beltrami/charts/round_disk.h>
@@ -13,8 +13,6 @@
 
 namespace beltrami {
 namespace {
-
-constexpr double kTurn = 2 * std::numbers::pi;
 
 template <class Move>
 std::vector<double> angles(int n, Move&& move) {

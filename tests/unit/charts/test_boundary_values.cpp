@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numbers>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/error.h>
 #include <beltrami/charts/boundary_values.h>
 #include <beltrami/meshing/planar_domains.h>
@@ -12,8 +12,6 @@
 
 namespace beltrami {
 namespace {
-
-constexpr double kTwoPi = 2 * std::numbers::pi;
 
 std::vector<Complex> images_along(const Surface& surface, const BoundaryCondition& boundary, int loop = 0) {
     std::vector<Complex> images;
@@ -39,7 +37,7 @@ TEST(BoundaryToDisk, FollowsArcLengthFromTheStart) {
     const BoundaryCondition b = boundary_to_disk(surface, 0.4, {loop[5], BoundarySpeed::arclength});
     EXPECT_EQ(b.vertices[0], loop[5]);
     for (std::size_t i = 0; i < loop.size(); ++i) {  // the square's boundary has equal edges
-        const double t = kTwoPi * static_cast<double>(i) / static_cast<double>(loop.size());
+        const double t = kTurn * static_cast<double>(i) / static_cast<double>(loop.size());
         EXPECT_EQ(b.vertices[i], loop[(5 + i) % loop.size()]);
         EXPECT_NEAR(std::abs(b.images[i] - std::polar(1.0, t + 0.4 * std::sin(t))), 0, 1e-12);
     }
@@ -91,10 +89,10 @@ TEST(BoundaryToPolygon, KeepsEveryCornerAndTheOrder) {
 TEST(BoundaryToPolygon, ConformalSpeedOfARegularPolygonKeepsItsSymmetry) {
     const Surface surface(disk(24));  // 144 boundary vertices
     std::vector<Complex> hexagon;
-    for (int i = 0; i < 6; ++i) hexagon.push_back(std::polar(1.0, kTwoPi * i / 6));
+    for (int i = 0; i < 6; ++i) hexagon.push_back(std::polar(1.0, kTurn * i / 6));
     const BoundaryCondition b = boundary_to_polygon(surface, hexagon, {std::nullopt, BoundarySpeed::conformal});
     for (std::size_t i = 0; i < 144; ++i)
-        EXPECT_NEAR(std::abs(b.images[(i + 24) % 144] - b.images[i] * std::polar(1.0, kTwoPi / 6)), 0, 2e-2);
+        EXPECT_NEAR(std::abs(b.images[(i + 24) % 144] - b.images[i] * std::polar(1.0, kTurn / 6)), 0, 2e-2);
     // Near a corner of angle 2π/3 the speed vanishes like s^{2/3 − 1 + …}: slower than in the middle of a side.
     EXPECT_GT(std::abs(b.images[1] - b.images[0]), std::abs(b.images[12] - b.images[11]));
 }
@@ -102,7 +100,7 @@ TEST(BoundaryToPolygon, ConformalSpeedOfARegularPolygonKeepsItsSymmetry) {
 /// A disk with five notches: at their mouths the conformal map squeezes several vertices into one place.
 Mesh notched_disk() {
     Polygon outline;
-    const double pitch = kTwoPi / 5, half = std::asin(0.03);
+    const double pitch = kTurn / 5, half = std::asin(0.03);
     const auto add = [&](double r, double t) { outline.emplace_back(r * std::cos(t), r * std::sin(t)); };
     for (int n = 0; n < 5; ++n) {
         add(1, n * pitch - half);
@@ -126,7 +124,7 @@ TEST(BoundaryToDisk, ConformalSpeedNeverRunsBackwards) {
             EXPECT_GT(step, 0) << "vertex " << b.vertices[i] << ", start " << loop[at];
             sum += step;
         }
-        EXPECT_NEAR(sum, kTwoPi, 1e-9);
+        EXPECT_NEAR(sum, kTurn, 1e-9);
     }
 }
 
@@ -193,7 +191,7 @@ TEST(HoleToCircle, RunsClockwiseByArcLength) {
     const double total = surface.topology.loop_lengths[1];
     double arc = 0;
     for (std::size_t i = 0; i < loop.size(); ++i) {
-        EXPECT_NEAR(std::abs(b.images[i] - Complex(2, 1) - std::polar(0.5, 0.7 - kTwoPi * arc / total)), 0, 1e-12);
+        EXPECT_NEAR(std::abs(b.images[i] - Complex(2, 1) - std::polar(0.5, 0.7 - kTurn * arc / total)), 0, 1e-12);
         arc += surface.boundary_edge_lengths[1][i];
     }
     EXPECT_LT(signed_area(images_along(surface, b, 1)), 0);

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/error.h>
 #include <beltrami/base/random.h>
 #include <beltrami/charts/chart_places.h>
@@ -12,8 +12,6 @@
 
 namespace beltrami {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 Mesh bowl(double edge_length) {
     DomainOptions options;

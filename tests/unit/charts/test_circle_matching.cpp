@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/error.h>
 #include <beltrami/charts/circle_matching.h>
 
 namespace beltrami {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 std::vector<RoundHole> spiral(int n) {
     std::vector<RoundHole> holes;

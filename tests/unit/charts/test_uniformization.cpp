@@ -17,7 +17,7 @@
 namespace beltrami {
 namespace {
 
-const std::vector<Circle> kCircles = {{{-0.45, 0.1}, 0.2}, {{0.35, 0.3}, 0.15}, {{0.2, -0.45}, 0.25}};
+const std::vector<Circle> kRoundHoles = {{{-0.45, 0.1}, 0.2}, {{0.35, 0.3}, 0.15}, {{0.2, -0.45}, 0.25}};
 
 Mesh domain(std::vector<Circle> circles, double edge_length) {
     DomainOptions options;
@@ -121,7 +121,7 @@ TEST(Uniformization, AnEccentricRingHasTheModuleOfTheConcentricOne) {
 TEST(Uniformization, ModuliOfThreeHolesConverge) {
     std::vector<double> errors;
     for (const double h : {0.1, 0.05, 0.025}) {
-        const Mesh flat = domain(kCircles, h);
+        const Mesh flat = domain(kRoundHoles, h);
         const Surface surface(on_sphere(flat));
         // The same loop is the outer one in space as in the plane.
         ASSERT_EQ(surface.topology.boundary_loops[0], Surface(flat).topology.boundary_loops[0]);
@@ -129,14 +129,14 @@ TEST(Uniformization, ModuliOfThreeHolesConverge) {
         expect_normalised(surface, found);
         EXPECT_EQ(found.moduli.size(), 6u);
         EXPECT_FALSE(found.module);
-        errors.push_back(worst(found.moduli, moduli_of(flat, kCircles)));
+        errors.push_back(worst(found.moduli, moduli_of(flat, kRoundHoles)));
     }
     EXPECT_LT(errors.back(), 1e-3);
     EXPECT_GT(std::log2(errors.front() / errors.back()) / 2, 1.8);
 }
 
 TEST(Uniformization, DoesNotDependOnMoebiusMapsOfTheSurface) {
-    const Mesh flat = domain(kCircles, 0.06);
+    const Mesh flat = domain(kRoundHoles, 0.06);
     const Uniformization one = uniformization(Surface(flat));
     for (const DiskMoebius& move : {DiskMoebius{1.1, {0.4, -0.2}}, DiskMoebius{-2.0, {0, 0.5}}}) {
         const Surface moved(mapped(flat, [&](Complex z) { return 3.0 * move(z) + Complex(1, 2); }));
@@ -148,7 +148,7 @@ TEST(Uniformization, DoesNotDependOnMoebiusMapsOfTheSurface) {
 }
 
 TEST(Uniformization, AHoleOfChoiceGoesToTheCentre) {
-    const Surface surface(domain(kCircles, 0.08));
+    const Surface surface(domain(kRoundHoles, 0.08));
     const Uniformization found = uniformization(surface, 0, 3);
     expect_normalised(surface, found);
     EXPECT_EQ(found.holes[0].loop, 3);

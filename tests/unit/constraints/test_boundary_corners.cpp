@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <numbers>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/error.h>
 #include <beltrami/charts/boundary_values.h>
 #include <beltrami/constraints/boundary_corners.h>
@@ -16,8 +16,6 @@
 
 namespace beltrami {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 Complex at(const Surface& surface, int v) {
     return {surface.mesh.positions(v, 0), surface.mesh.positions(v, 1)};

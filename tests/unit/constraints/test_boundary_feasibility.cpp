@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <chrono>
-#include <numbers>
 #include <random>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/error.h>
 #include <beltrami/constraints/boundary_feasibility.h>
 #include <beltrami/generate/sphere.h>
@@ -15,8 +15,6 @@
 
 namespace beltrami {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 struct Refusal {
     bool refused = false;

@@ -1,3 +1,4 @@
+#include <beltrami/base/constants.h>
 #include <beltrami/differentials/curve_densities.h>
 #include <gtest/gtest.h>
 
@@ -7,8 +8,6 @@
 
 namespace beltrami {
 namespace {
-
-const Complex kI(0, 1);
 
 Singularities::Curve curve_of(std::vector<Complex> points, bool real = false, bool closed = false) {
     const int last = static_cast<int>(points.size()) - 1;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/differentials/mixed_space.h>
 #include <beltrami/generate/round_domains.h>
 #include <beltrami/linear/decomposition.h>
@@ -12,9 +13,6 @@
 
 namespace beltrami {
 namespace {
-
-constexpr double kTurn = 2 * std::numbers::pi;
-constexpr Complex kI(0, 1);
 
 MixedDomain ring_with_sliding_inner_circle(double r) {
     return {{test::whole_circle(0, 1, false), test::whole_circle(0, r, true)}, {}, {}, {}};

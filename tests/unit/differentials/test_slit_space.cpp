@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/differentials/slit_space.h>
 #include <beltrami/linear/decomposition.h>
 
@@ -10,9 +10,6 @@
 
 namespace beltrami {
 namespace {
-
-constexpr double kTurn = 2 * std::numbers::pi;
-constexpr Complex kI(0, 1);
 
 const std::vector<double> kTwoArcs{1.5, 2.5, 4.4, 0.3 + kTurn};
 

@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/error.h>
 #include <beltrami/base/random.h>
 #include <beltrami/generate/double_torus.h>
@@ -20,8 +20,7 @@
 namespace beltrami {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr double degree = pi / 180.0;
+constexpr double degree = kPi / 180.0;
 
 double area(const Mesh& mesh) {
     double sum = 0.0;
@@ -74,7 +73,7 @@ TEST(Disk, CountsShapeAndArea) {
             EXPECT_NEAR(mesh.point(topo.boundary_loops[0][i]).norm(), 3.0, 1e-15);
         }
     }
-    expect_second_order([](int n) { return area(disk(n)) - pi; }, {5, 10, 20, 40});
+    expect_second_order([](int n) { return area(disk(n)) - kPi; }, {5, 10, 20, 40});
     EXPECT_EQ(disk_rings_for_triangles(4500), 27);
     EXPECT_EQ(disk_rings_for_edge_length(0.1, 2.0), 20);
     EXPECT_THROW(disk(0), Error);
@@ -92,7 +91,7 @@ TEST(Annulus, EquilateralInLogarithmicCoordinates) {
     ASSERT_EQ(topo.boundary_loops.size(), 2u);
     for (const int v : topo.boundary_loops[0]) EXPECT_NEAR(mesh.point(v).norm(), 1.0, 1e-15);
     for (const int v : topo.boundary_loops[1]) EXPECT_NEAR(mesh.point(v).norm(), 0.1, 1e-15);
-    expect_second_order([](int n) { return area(annulus(0.5, 1, n)) - 0.75 * pi; }, {20, 40, 80, 160});
+    expect_second_order([](int n) { return area(annulus(0.5, 1, n)) - 0.75 * kPi; }, {20, 40, 80, 160});
     EXPECT_EQ(annulus(0.5, 1, 10, 7).face_count(), 140);
     EXPECT_THROW(annulus(1, 0.5, 10), Error);
     EXPECT_THROW(annulus(0, 1, 10), Error);
@@ -121,13 +120,13 @@ TEST(Rectangle, TrianglesAndQuads) {
 TEST(Sphere, AreaVolumeAndShape) {
     for (const Mesh& mesh : {icosahedral_sphere(4, 2.0), octahedral_sphere(4, 2.0)}) {
         EXPECT_TRUE(diagnose(mesh).empty());
-        EXPECT_NEAR(volume(mesh), 4.0 / 3.0 * pi * 8.0, 0.25);
+        EXPECT_NEAR(volume(mesh), 4.0 / 3.0 * kPi * 8.0, 0.25);
         for (int v = 0; v < mesh.vertex_count(); ++v) EXPECT_NEAR(mesh.point(v).norm(), 2.0, 1e-15);
     }
     EXPECT_GE(quality(icosahedral_sphere(5)).min_angle, 53.0 * degree);
     EXPECT_GE(quality(octahedral_sphere(5)).min_angle, 44.0 * degree);
-    expect_second_order([](int levels) { return area(icosahedral_sphere(levels)) - 4.0 * pi; }, {2, 3, 4, 5});
-    expect_second_order([](int levels) { return area(octahedral_sphere(levels)) - 4.0 * pi; }, {3, 4, 5});
+    expect_second_order([](int levels) { return area(icosahedral_sphere(levels)) - 4.0 * kPi; }, {2, 3, 4, 5});
+    expect_second_order([](int levels) { return area(octahedral_sphere(levels)) - 4.0 * kPi; }, {3, 4, 5});
     const Mesh octahedron = octahedral_sphere(0);
     EXPECT_EQ(octahedron.face_count(), 8);
     EXPECT_EQ(octahedron.point(4), Eigen::Vector3d(0, 0, 1));
@@ -140,9 +139,9 @@ TEST(Sphere, AreaVolumeAndShape) {
 TEST(Torus, AreaAndVolume) {
     for (const Cells cells : {Cells::triangles, Cells::quads}) {
         EXPECT_TRUE(diagnose(torus(2, 0.7, 12, 8, cells)).empty());
-        expect_second_order([&](int n) { return area(torus(2, 0.7, 2 * n, n, cells)) - 4.0 * pi * pi * 2 * 0.7; },
+        expect_second_order([&](int n) { return area(torus(2, 0.7, 2 * n, n, cells)) - 4.0 * kPi * kPi * 2 * 0.7; },
                             {10, 20, 40});
-        expect_second_order([&](int n) { return volume(torus(2, 0.7, 2 * n, n, cells)) - 2.0 * pi * pi * 2 * 0.49; },
+        expect_second_order([&](int n) { return volume(torus(2, 0.7, 2 * n, n, cells)) - 2.0 * kPi * kPi * 2 * 0.49; },
                             {10, 20, 40});
     }
     EXPECT_THROW(torus(1, 1, 10, 10), Error);
@@ -153,7 +152,7 @@ TEST(Cylinder, AreaAndNormals) {
     for (const Cells cells : {Cells::triangles, Cells::quads}) {
         const Mesh mesh = cylinder(2, 3, 20, 6, cells);
         EXPECT_TRUE(diagnose(mesh).empty());
-        EXPECT_NEAR(area(mesh), 20 * 2 * 2 * std::sin(pi / 20) * 3, 1e-12);
+        EXPECT_NEAR(area(mesh), 20 * 2 * 2 * std::sin(kPi / 20) * 3, 1e-12);
         for (int f = 0; f < mesh.face_count(); ++f) {
             EXPECT_GT(face_vector_area(mesh, f).head<2>().dot(mesh.point(mesh.faces[f][0]).head<2>()), 0.0);
         }
@@ -234,13 +233,13 @@ TEST(Quality, KnownShapes) {
     mesh.faces.add({0, 1, 2});
     const MeshQuality q = quality(mesh);
     EXPECT_NEAR(q.min_angle, std::atan(0.75), 1e-15);
-    EXPECT_NEAR(q.max_angle, pi / 2, 1e-15);
+    EXPECT_NEAR(q.max_angle, kPi / 2, 1e-15);
     EXPECT_EQ(q.min_edge, 3.0);
     EXPECT_EQ(q.max_edge, 5.0);
     EXPECT_NEAR(q.mean_edge, 4.0, 1e-15);
     EXPECT_NEAR(q.max_aspect, 5.0 / 3.0, 1e-15);
     EXPECT_EQ(q.ears, 1);
-    EXPECT_EQ(quality(rectangle(2, 1, 4, 4, Cells::quads)).min_angle, pi / 2);
+    EXPECT_EQ(quality(rectangle(2, 1, 4, 4, Cells::quads)).min_angle, kPi / 2);
     EXPECT_EQ(quality(Mesh{}).face_count, 0);
 }
 

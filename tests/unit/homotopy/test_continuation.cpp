@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/error.h>
 #include <beltrami/homotopy/continuation.h>
 #include <beltrami/homotopy/homotopy.h>
@@ -15,8 +15,6 @@
 
 namespace beltrami {
 namespace {
-
-constexpr double kTurn = 2 * std::numbers::pi;
 
 /// The unit disk with holes of radius 0.12 around ±0.4; loop_at(±1) is the loop of the hole there.
 struct TwoHoles {

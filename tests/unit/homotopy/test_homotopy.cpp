@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/error.h>
 #include <beltrami/homotopy/homotopy.h>
 #include <beltrami/meshing/planar_domains.h>
@@ -14,7 +15,6 @@
 namespace beltrami {
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
 constexpr double kInner = 0.05;
 
 /// z|z|^{κ−1} e^{is log|z|}: turned by `angle` at |z| = kInner against |z| = 1.

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/error.h>
 #include <beltrami/homotopy/twist.h>
 #include <beltrami/meshing/planar_domains.h>
@@ -14,12 +14,11 @@
 namespace beltrami {
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
-constexpr double kInner = 0.05;
+constexpr double kInnerRadius = 0.05;
 
-Complex turned(Complex z, double kappa, double angle) {
+Complex turned_by(Complex z, double kappa, double angle) {
     const double r = std::abs(z);
-    return z * std::pow(r, kappa - 1) * std::polar(1.0, angle / std::log(kInner) * std::log(r));
+    return z * std::pow(r, kappa - 1) * std::polar(1.0, angle / std::log(kInnerRadius) * std::log(r));
 }
 
 struct Ring {
@@ -27,7 +26,7 @@ struct Ring {
     Surface surface;
     Eigen::VectorXcd z;
     explicit Ring(int around, int layers, double amount = 0)
-        : mesh(annulus(kInner, 1, around, layers, {amount})), surface(mesh), z(test::complex_positions(mesh)) {}
+        : mesh(annulus(kInnerRadius, 1, around, layers, {amount})), surface(mesh), z(test::complex_positions(mesh)) {}
 };
 
 /// Three round holes of different sizes.
@@ -48,13 +47,13 @@ TEST(LogarithmicMap, OfARingIsTheClosedFormWithAnyTurns) {
             for (const double smallest : {0.0, 1.0}) {
                 const double angle = kTurn * turns + smallest;
                 const BoundaryCondition boundary = test::boundary_values(
-                    ring.surface, [&](Complex p) { return Complex(2, 1) + turned(p, 0.7, angle); });
+                    ring.surface, [&](Complex p) { return Complex(2, 1) + turned_by(p, 0.7, angle); });
                 const Eigen::VectorXcd f = logarithmic_map(ring.surface, ring.z, 0, boundary, turns);
                 const HoleTurns found = homotopy_class(ring.surface, ring.z, f).holes[0];
                 EXPECT_EQ(found.turns, turns);
                 EXPECT_NEAR(found.angle, angle, 1e-9);
                 for (Eigen::Index v = 0; v < f.size(); ++v)
-                    error = std::max(error, std::abs(f[v] - Complex(2, 1) - turned(ring.z[v], 0.7, angle)));
+                    error = std::max(error, std::abs(f[v] - Complex(2, 1) - turned_by(ring.z[v], 0.7, angle)));
             }
         // In geometric layers log|z| is harmonic to the last digit.
         EXPECT_LT(error, 1e-9);
@@ -146,7 +145,7 @@ TEST(TwistedMap, TooCoarseOrTooNarrowIsRefused) {
 
 TEST(StartInClass, ReachesTheWantedTurns) {
     const Ring ring(64, 64);
-    const BoundaryCondition plain = test::boundary_values(ring.surface, [](Complex p) { return turned(p, 1, 0.3); });
+    const BoundaryCondition plain = test::boundary_values(ring.surface, [](Complex p) { return turned_by(p, 1, 0.3); });
     for (const int turns : {0, 1, -2}) {
         const StartInClass start = start_in_class(ring.surface, ring.z, 0, plain, {0, turns});
         EXPECT_EQ(start.homotopy.holes[0].turns, turns);

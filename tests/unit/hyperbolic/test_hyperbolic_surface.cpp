@@ -1,10 +1,10 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/generate/double_torus.h>
 #include <beltrami/generate/grids.h>
 #include <beltrami/hyperbolic/fundamental_group.h>
@@ -17,8 +17,6 @@
 
 namespace beltrami {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// Vertices moved along the surface's tangent directions by up to part of an edge, so that edges have to be flipped.
 Mesh uneven(Mesh mesh, double amount) {

@@ -16,7 +16,7 @@
 namespace beltrami {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
+constexpr double kDegree = std::numbers::pi / 180.0;
 
 TriangulateOptions plain() {
     TriangulateOptions options;
@@ -143,10 +143,10 @@ TEST(Triangulate, SegmentsThroughAThicketAreRecovered) {
 
 TEST(Triangulate, AnglesReachTheBoundAndSizesFollowTheField) {
     TriangulateOptions options;
-    options.min_angle = 30.0 * degree;
+    options.min_angle = 30.0 * kDegree;
     options.size = [](const Eigen::Vector2d& p) { return 0.01 + 0.1 * p.x(); };
     const Mesh mesh = triangulate(square_with({}), options);
-    EXPECT_GE(quality(mesh).min_angle, 29.999 * degree);
+    EXPECT_GE(quality(mesh).min_angle, 29.999 * kDegree);
     EXPECT_EQ(quality(mesh).ears, 0);
     double sum = 0.0;
     const Topology topo = topology(mesh);
@@ -163,7 +163,7 @@ TEST(Triangulate, SidesOfASharpCornerAreSplitAtEqualDistances) {
     for (const double angle : {30.0, 10.0, 3.0}) {
         SCOPED_TRACE(angle);
         PlanarDomain wedge;
-        const Eigen::Vector2d direction(std::cos(angle * degree), std::sin(angle * degree));
+        const Eigen::Vector2d direction(std::cos(angle * kDegree), std::sin(angle * kDegree));
         // Sides that split in halves would never meet: 1 and 0.7.
         wedge.points = {{0, 0}, {1, 0}, {1, 1}, {0.7 * direction.x(), 0.7 * direction.y()}};
         wedge.segments = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
@@ -219,7 +219,7 @@ TEST(Triangulate, RefusesWithThePlace) {
         EXPECT_EQ(error.cause(), Cause::not_solved);
     }
     TriangulateOptions steep;
-    steep.min_angle = 35.0 * degree;
+    steep.min_angle = 35.0 * kDegree;
     EXPECT_THROW(triangulate(square_with({}), steep), Error);
 }
 

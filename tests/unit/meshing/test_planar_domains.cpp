@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/error.h>
 #include <beltrami/mesh/diagnosis.h>
 #include <beltrami/mesh/topology.h>
@@ -13,8 +13,7 @@
 namespace beltrami {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr double degree = pi / 180.0;
+constexpr double degree = kPi / 180.0;
 
 double total_area(const Mesh& mesh) {
     double area = 0.0;
@@ -65,7 +64,7 @@ TEST(CircleDomain, BoundaryVerticesLieOnTheirCircles) {
 
 TEST(CircleDomain, AreaConvergesWithOrderTwo) {
     const std::vector<Circle> holes{{{0.4, 0.1}, 0.25}, {{-0.3, -0.4}, 0.2}};
-    const double exact = pi * (1.0 - 0.25 * 0.25 - 0.2 * 0.2);
+    const double exact = kPi * (1.0 - 0.25 * 0.25 - 0.2 * 0.2);
     double last = 0.0;
     for (const double h : {0.1, 0.05, 0.025, 0.0125}) {
         DomainOptions options{.edge_length = h};

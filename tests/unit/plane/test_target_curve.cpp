@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/error.h>
 #include <beltrami/plane/closed_spline.h>
 #include <beltrami/plane/curve_meeting.h>
@@ -12,8 +12,6 @@
 
 namespace beltrami {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 std::vector<Complex> ellipse_points(int n, double a, double b) {
     std::vector<Complex> points;

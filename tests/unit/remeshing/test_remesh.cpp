@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/generate/double_torus.h>
 #include <beltrami/generate/sphere.h>
 #include <beltrami/io/read_mesh.h>
@@ -21,8 +21,6 @@
 
 namespace beltrami {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// A box of n cells along every edge, its vertices moved within their faces and edges.
 Mesh jittered_box(int n, double amount) {

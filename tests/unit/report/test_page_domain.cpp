@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/forms/flat_torus.h>
 #include <beltrami/generate/double_torus.h>
 #include <beltrami/generate/grids.h>
@@ -13,8 +13,6 @@
 
 namespace beltrami {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// Side pairings of the regular octagon with angles of π/4, opposite sides.
 std::vector<DiskIsometry> of_octagon() {

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/error.h>
 #include <beltrami/generate/round_domains.h>
 #include <beltrami/mesh/planar.h>
@@ -13,8 +13,6 @@
 using namespace beltrami;
 
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// The boundary of a disk mesh on the unit circle, every vertex at its own angle.
 SlidingLoop circle_loop(const Surface& surface) {

@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/operators/distortion.h>
 #include <beltrami/space/corner_elements.h>
 #include <beltrami/space/reference_shapes.h>
@@ -17,8 +17,6 @@ namespace beltrami {
 namespace {
 
 using test::complex_positions;
-
-constexpr double kPi = std::numbers::pi;
 
 TEST(CornerElements, CoverEveryPolygonOnce) {
     for (const Mesh& mesh : {test::jittered_square(5), test::quad_square(5, 0.25), test::mixed_square(5)})

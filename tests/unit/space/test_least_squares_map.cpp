@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/generate/sphere.h>
 #include <beltrami/mesh/topology.h>
 #include <beltrami/operators/distortion.h>
@@ -20,8 +20,6 @@ namespace {
 
 using test::complex_positions;
 using Vector3 = Eigen::Vector3d;
-
-constexpr double kPi = std::numbers::pi;
 
 Mesh in_space(const Mesh& planar, const std::function<double(double, double)>& height) {
     Mesh mesh = planar;

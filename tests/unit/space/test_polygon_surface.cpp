@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include <Eigen/Geometry>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/operators/distortion.h>
 #include <beltrami/remeshing/mesh_comparison.h>
 #include <beltrami/remeshing/remesh.h>
@@ -16,8 +16,6 @@
 
 namespace beltrami {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// A hexagonal honeycomb of rings around a cell, its vertices moved; where height is positive, on a bump.
 Mesh honeycomb(int rings, double amount, double height) {

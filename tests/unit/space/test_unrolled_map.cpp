@@ -1,16 +1,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/generate/grids.h>
 #include <beltrami/operators/distortion.h>
 #include <beltrami/space/unrolled_map.h>
 
 namespace beltrami {
 namespace {
-
-constexpr double kTurn = 2 * std::numbers::pi;
 
 struct Rolled {
     Mesh mesh = cylinder(1.5, 2, 24, 7, Cells::triangles);

@@ -13,7 +13,7 @@
 namespace beltrami {
 namespace {
 
-Positions random_points(int count, std::uint64_t seed) {
+Positions points_on_sphere(int count, std::uint64_t seed) {
     Random random(seed);
     Positions points(count, 3);
     for (double& x : points.reshaped()) x = random.uniform(-1, 1);
@@ -28,9 +28,9 @@ std::vector<int> first(int count) {
 }
 
 TEST(MoebiusFit, ThreePointsReachTheirPlaces) {
-    const Positions points = random_points(20, 3);
+    const Positions points = points_on_sphere(20, 3);
     for (int count = 0; count <= 3; ++count) {
-        const Positions wanted = random_points(count, 4);
+        const Positions wanted = points_on_sphere(count, 4);
         const Positions fitted = moebius_fitted(points, first(count), wanted);
         EXPECT_LT((fitted.topRows(count) - wanted).norm(), 1e-12) << count;
         EXPECT_LT((fitted.rowwise().norm().array() - 1).abs().maxCoeff(), 1e-14);
@@ -38,7 +38,7 @@ TEST(MoebiusFit, ThreePointsReachTheirPlaces) {
 }
 
 TEST(MoebiusFit, FindsTheMoebiusMapOfWhichImagesCome) {
-    const Positions points = random_points(30, 5);
+    const Positions points = points_on_sphere(30, 5);
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(2, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
     const Positions images = moebius_shifted(points, {.4, -.3, .2}) * turn.transpose();
     const Positions fitted = moebius_fitted(points, first(6), images.topRows(6));
@@ -46,7 +46,7 @@ TEST(MoebiusFit, FindsTheMoebiusMapOfWhichImagesCome) {
 }
 
 TEST(MoebiusFit, IsStationaryForPointsThatDoNotFit) {
-    const Positions points = random_points(6, 7), wanted = random_points(6, 8);
+    const Positions points = points_on_sphere(6, 7), wanted = points_on_sphere(6, 8);
     const Positions fitted = moebius_fitted(points, first(6), wanted);
     const double best = (fitted - wanted).squaredNorm();
     for (const double step : {1e-3, -1e-3})
@@ -60,7 +60,7 @@ TEST(MoebiusFit, IsStationaryForPointsThatDoNotFit) {
 }
 
 TEST(MoebiusFit, TheBestRotationIsFound) {
-    const Positions points = random_points(9, 11);
+    const Positions points = points_on_sphere(9, 11);
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(1, Eigen::Vector3d(1, -2, 3).normalized()).toRotationMatrix();
     EXPECT_LT((best_rotation(points, points * turn.transpose()) - turn).norm(), 1e-14);
     const Positions mirrored = points * Eigen::Vector3d(-1, 1, 1).asDiagonal();

@@ -1,10 +1,10 @@
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/random.h>
 #include <beltrami/sphere/centring.h>
 #include <beltrami/sphere/stereographic_charts.h>
@@ -12,8 +12,6 @@
 
 namespace beltrami {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 Positions random_points(int count, std::uint64_t seed) {
     Random random(seed);

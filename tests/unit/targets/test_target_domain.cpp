@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <functional>
-#include <numbers>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/error.h>
 #include <beltrami/generate/sphere.h>
 #include <beltrami/meshing/planar_domains.h>
@@ -13,8 +13,6 @@
 
 namespace beltrami {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 void expect_error(Cause cause, const std::string& part, const std::function<void()>& call) {
     try {

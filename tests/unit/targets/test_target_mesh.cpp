@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/error.h>
 #include <beltrami/mesh/diagnosis.h>
 #include <beltrami/mesh/topology.h>
@@ -11,8 +11,6 @@
 
 namespace beltrami {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 TargetCurve flower(Complex centre, double radius) {
     std::vector<Complex> points;

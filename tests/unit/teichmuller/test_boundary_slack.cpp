@@ -1,10 +1,10 @@
+#include <beltrami/base/constants.h>
 #include <beltrami/teichmuller/boundary_slack.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include <beltrami/base/error.h>
@@ -18,8 +18,6 @@
 
 namespace beltrami {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// The round disk, which is its own chart.
 struct Disk {

@@ -4,7 +4,6 @@
 #include <complex>
 #include <cstdlib>
 #include <functional>
-#include <numbers>
 #include <numeric>
 #include <random>
 #include <string>
@@ -13,6 +12,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/base/error.h>
 #include <beltrami/io/read_mesh.h>
 #include <beltrami/mesh/topology.h>
@@ -24,8 +24,6 @@
 
 namespace beltrami {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // ---- surfaces -------------------------------------------------------------------------------------------------------
 

@@ -1,17 +1,15 @@
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/uniformize/intrinsic_triangulation.h>
 
 namespace beltrami {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 struct PlanarMesh {
     std::vector<Complex> points;

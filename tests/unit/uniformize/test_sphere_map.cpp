@@ -1,3 +1,4 @@
+#include <beltrami/base/constants.h>
 #include <beltrami/uniformize/sphere_map.h>
 
 #include <algorithm>
@@ -30,8 +31,6 @@
 
 namespace beltrami {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 Eigen::VectorXd vertex_areas(const Surface& surface) {
     Eigen::VectorXd areas = Eigen::VectorXd::Zero(surface.mesh.vertex_count());
