@@ -1,6 +1,6 @@
 // Takes the pictures of docs/pictures from report pages: take.js PAGES_FOLDER PICTURE_FOLDER, with the pages face.html (of a
 // scan and the star), bunny.html (the same of the demo's scan, with a texture), closed.html (a registration, with one) and
-// handles.html (one of surfaces of genus 2).
+// handles.html (one of surfaces of genus 2); and from readme.html.
 
 import { chromium } from "@playwright/test";
 import { resolve } from "node:path";
@@ -60,24 +60,28 @@ const tick = async (page, ...boxes) => { for (const box of boxes) await page.loc
 const toFigures = page => page.evaluate(() => document.getElementById("maps-heading").scrollIntoView());
 
 await firstScreen();
-await screen("bunny", "page_light", {}, async page => {
-    await page.locator("input[value=none]").check();
-    await tick(page, "trajectories", "ellipses");
-    await toFigures(page);
-});
-await screen("bunny", "page_dark", { colorScheme: "dark" }, async page => {
-    await toFigures(page);
-    const box = await page.locator("#source").boundingBox();
-    await page.mouse.click(box.x + 0.45 * box.width, box.y + 0.55 * box.height);
-});
-await screen("bunny", "page_phone", { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true }, async page => {
-    await tick(page, "trajectories");
-    await toFigures(page);
-});
-await screen("closed", "page_closed", {}, async page => { await tick(page, "trajectories", "ellipses"); await toFigures(page); });
+/// The page of a scan mapped to a star and that of a closed surface carried onto another one, on a screen and on a phone, in
+/// the light and in the dark: with trajectories and ellipses; in the dark a face is kept, and the image lies over the scan.
+const widths = { screen: {}, phone: { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true } };
+for (const [name, subject] of [["bunny", "scan"], ["closed", "closed"]])
+    for (const [width, size] of Object.entries(widths))
+        for (const colorScheme of ["light", "dark"])
+            await screen(name, `page_${subject}_${width}_${colorScheme}`, { ...size, colorScheme }, async page => {
+                if (subject === "scan" && colorScheme === "light") await page.locator("input[value=none]").check();
+                await tick(page, "trajectories", "ellipses");
+                await toFigures(page);
+                if (colorScheme === "light") return;
+                const { x, y, width, height } = await page.locator("#source").boundingBox();
+                await page.mouse.click(x + 0.45 * width, y + 0.55 * height);
+            });
 await screen("handles", "page_polygon", {}, async page => {
     await page.selectOption("#map", { label: "fundamental polygon" });
     await tick(page, "trajectories");
     await toFigures(page);
 });
+
+// With the first screen's picture as it has just been taken.
+const readme = await browser.newPage({ viewport: { width: 1280, height: 1000 } });
+await readme.goto(pathToFileURL(`${folder}/readme.html`).href);
+await readme.screenshot({ path: `${pictures}/readme.png` });
 await browser.close();
