@@ -90,12 +90,7 @@ ReichStrebel reich_strebel(const Surface& source, const Chart& chart, const Diff
     const int samples = source.operators.sample_count();
     for (int s = 0; s < samples; ++s)
         if (!chart.excluded[s] && !(std::norm(mu[s]) < 1)) return {};
-    Eigen::VectorXcd phi = Eigen::VectorXcd::Zero(samples);    // ∫φ
-    Eigen::VectorXd abs_phi = Eigen::VectorXd::Zero(samples);  // ∫|φ|
-    const double unresolved = visit_quadrature(source, chart, space, coefficients, [&](const FacePoint& p) {
-        phi[p.sample] += p.weight * p.phi;
-        abs_phi[p.sample] += p.weight * std::sqrt(std::norm(p.phi));
-    });
+    const auto [phi, abs_phi, unresolved] = integrals_over_samples(source, chart, space, coefficients);
     double total = 0, norm = 0, pairing = 0;
     for (int s = 0; s < samples; ++s) {
         if (chart.excluded[s]) continue;

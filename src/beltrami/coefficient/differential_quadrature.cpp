@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
+#include <span>
 #include <vector>
 
 #include <beltrami/base/parallel.h>
@@ -69,30 +69,41 @@ class Places {
         Complex position, derivative;
         double area;  ///< per area in the coordinates of the face
     };
-    At operator()(int sample, const Place& p) const {
-        const auto v = operators_.stencil(sample);
-        At at{0.0, chart_.derivatives[sample], 2 * operators_.weights[sample]};
-        const std::array<Complex, 4> points = corners(sample);
-        if (v.size() == 3) {
-            at.position = points[0] + p[0] * (points[1] - points[0]) + p[1] * (points[2] - points[0]);
-        } else {
-            const double x = p[0], y = p[1];
-            at.position =
-                (1 - x) * (1 - y) * points[0] + x * (1 - y) * points[1] + x * y * points[2] + (1 - x) * y * points[3];
-            at.area = 4 * operators_.weights[sample];
-            if (plane_.size()) {
-                const Complex along_x = (1 - y) * (plane_[v[1]] - plane_[v[0]]) + y * (plane_[v[2]] - plane_[v[3]]);
-                const Complex along_y = (1 - x) * (plane_[v[3]] - plane_[v[0]]) + x * (plane_[v[2]] - plane_[v[1]]);
-                at.area = std::imag(std::conj(along_x) * along_y);
+    /// The places of one sample.
+    class OfSample {
+      public:
+        OfSample(const Places& all, int sample)
+            : all_(all),
+              points_(all.corners(sample)),
+              derivative_(all.chart_.derivatives[sample]),
+              weight_(all.operators_.weights[sample]),
+              vertices_(all.operators_.stencil(sample)) {}
+        At operator()(const Place& p) const {
+            At at{0.0, derivative_, 2 * weight_};
+            if (vertices_.size() == 3) {
+                at.position = points_[0] + p[0] * (points_[1] - points_[0]) + p[1] * (points_[2] - points_[0]);
+            } else {
+                const double x = p[0], y = p[1];
+                at.position = (1 - x) * (1 - y) * points_[0] + x * (1 - y) * points_[1] + x * y * points_[2] +
+                              (1 - x) * y * points_[3];
+                at.area = all_.plane_.size() ? all_.area_in_plane(vertices_, x, y) : 4 * weight_;
             }
+            if (all_.analytic_) {
+                const auto [value, derivative] = all_.chart_.analytic(at.position);
+                at.position = value;
+                at.derivative = derivative;
+            }
+            return at;
         }
-        if (analytic_) {
-            const auto [value, derivative] = chart_.analytic(at.position);
-            at.position = value;
-            at.derivative = derivative;
-        }
-        return at;
-    }
+
+      private:
+        const Places& all_;
+        std::array<Complex, 4> points_;
+        Complex derivative_;
+        double weight_;
+        std::span<const int> vertices_;
+    };
+    At operator()(int sample, const Place& p) const { return OfSample(*this, sample)(p); }
 
   private:
     std::array<Complex, 4> corners(int sample) const {
@@ -104,6 +115,12 @@ class Places {
                         : chart_.corners.size() ? chart_.corners[first + static_cast<int>(j)]
                                                 : chart_.vertices[v[j]];
         return points;
+    }
+
+    double area_in_plane(std::span<const int> v, double x, double y) const {
+        const Complex along_x = (1 - y) * (plane_[v[1]] - plane_[v[0]]) + y * (plane_[v[2]] - plane_[v[3]]);
+        const Complex along_y = (1 - x) * (plane_[v[3]] - plane_[v[0]]) + x * (plane_[v[2]] - plane_[v[1]]);
+        return std::imag(std::conj(along_x) * along_y);
     }
 
     const Operators& operators_;
@@ -161,43 +178,116 @@ double visit_samples(const Operators& operators, const Chart& chart, const Eigen
     return 1;
 }
 
-/// φ at the points of the pieces begin to end.
-std::vector<FacePoint> evaluated(const Places& places, const DifferentialSpace& space,
-                                 const Eigen::VectorXcd& coefficients, const std::vector<Piece>& pieces, int begin,
-                                 int end) {
-    std::vector<FacePoint> points(static_cast<std::size_t>(kPoints) * (end - begin));
-    const auto evaluate = [&](int first, int last) {
+/// Integrals over a piece, and whether φ varies on it by more than a part of its mean.
+struct PieceSums {
+    Complex phi;     ///< ∫φ
+    double abs_phi;  ///< ∫|φ|
+    bool varies;
+};
+
+PieceSums sums_of(const FacePoint* own, double variation) {
+    Complex mean = 0;
+    PieceSums sums{0.0, 0.0, false};
+    for (int n = 0; n < kPoints; ++n) {
+        mean += own[n].phi / static_cast<double>(kPoints);
+        sums.phi += own[n].weight * own[n].phi;
+        sums.abs_phi += own[n].weight * std::sqrt(std::norm(own[n].phi));
+    }
+    double most = 0;
+    for (int n = 0; n < kPoints; ++n) most = std::max(most, std::norm(own[n].phi - mean));
+    sums.varies = most > variation * variation * std::norm(mean);
+    return sums;
+}
+
+/// φ at the points of some pieces, and what it comes to on each.
+struct Evaluated {
+    std::vector<FacePoint> points;  ///< kPoints a piece
+    std::vector<PieceSums> sums;
+};
+
+/// Of the pieces begin to end.
+void evaluate(const Places& places, const DifferentialSpace& space, const Eigen::VectorXcd& coefficients,
+              double variation, const std::vector<Piece>& pieces, int begin, int end, Evaluated& result) {
+    result.points.resize(static_cast<std::size_t>(kPoints) * (end - begin));
+    result.sums.resize(static_cast<std::size_t>(end - begin));
+    const auto evaluate_chunk = [&](int first, int last) {
         ChartPoints at;
         at.positions.resize(kPoints * (last - first));
         at.derivatives.resize(at.positions.size());
-        const std::size_t offset = static_cast<std::size_t>(kPoints) * (first - begin);
-        for (int i = first; i < last; ++i)
-            for (int n = 0; n < kPoints; ++n) {
-                const int j = kPoints * (i - first) + n;
+        FacePoint* const own = &result.points[static_cast<std::size_t>(kPoints) * (first - begin)];
+        for (int i = first, j = 0; i < last; ++i) {
+            const Places::OfSample of_sample(places, pieces[i].sample);
+            for (int n = 0; n < kPoints; ++n, ++j) {
                 const Place place = inside(pieces[i], kRule[n]);
-                const Places::At here = places(pieces[i].sample, place);
+                const Places::At here = of_sample(place);
                 at.positions[j] = here.position;
                 at.derivatives[j] = here.derivative;
-                points[offset + j] = {pieces[i].sample, place, 0.0, pieces[i].area * kRule[n].weight * here.area};
+                own[j] = {pieces[i].sample, place, 0.0, pieces[i].area * kRule[n].weight * here.area};
             }
+        }
         const Eigen::VectorXcd phi = space.combination(at, coefficients);
-        for (Eigen::Index j = 0; j < phi.size(); ++j) points[offset + static_cast<std::size_t>(j)].phi = phi[j];
+        for (Eigen::Index j = 0; j < phi.size(); ++j) own[j].phi = phi[j];
+        for (int i = first; i < last; ++i) result.sums[i - begin] = sums_of(own + kPoints * (i - first), variation);
     };
-    for (int next = begin; next < end; next += kPiecesAtOnce)
-        parallel_for(next, std::min(end, next + kPiecesAtOnce), evaluate, kPiecesPerChunk);
-    return points;
+    parallel_for(begin, end, evaluate_chunk, kPiecesPerChunk);
 }
 
-/// The integral of |φ| over a piece, and whether φ varies on it by more than a part of its mean.
-std::pair<double, bool> spread(const FacePoint* own, double variation) {
-    Complex mean = 0;
-    double part = 0, most = 0;
-    for (int n = 0; n < kPoints; ++n) {
-        mean += own[n].phi / static_cast<double>(kPoints);
-        part += own[n].weight * std::sqrt(std::norm(own[n].phi));
+/// The adaptive quadrature, piece by piece: take(points, sums), with kPoints points.
+/// @return see visit_quadrature
+template <class Take>
+double visit_pieces(const Surface& source, const Chart& chart, const DifferentialSpace& space,
+                    const Eigen::VectorXcd& coefficients, const QuadratureOptions& options, Take&& take) {
+    const Places places(source, chart);
+    std::vector<Piece> pieces = whole_faces(source.operators, chart), divided;
+    for (int depth = 0; depth < options.least_depth; ++depth) {
+        divided.clear();
+        divided.reserve(4 * pieces.size());
+        for (const Piece& piece : pieces) divide(piece, divided);
+        pieces.swap(divided);
     }
-    for (int n = 0; n < kPoints; ++n) most = std::max(most, std::norm(own[n].phi - mean));
-    return {part, most > variation * variation * std::norm(mean)};
+    double total = 0, unresolved = 0;
+    Evaluated block, held;   // held: of pieces that wait until the total is known
+    std::vector<int> waits;  // the indices of those
+    for (int depth = options.least_depth; !pieces.empty(); ++depth) {
+        const int count = static_cast<int>(pieces.size());
+        const bool total_known = depth > options.least_depth;
+        divided.clear();
+        const auto decide = [&](int piece, const FacePoint* own, const PieceSums& sums) {
+            const bool matters = sums.abs_phi > options.tolerance * total;
+            if (matters && depth < options.most_depth && divided.size() < kMostPieces) {
+                divide(pieces[piece], divided);
+                return;
+            }
+            if (matters) unresolved += sums.abs_phi;
+            take(own, sums);
+        };
+        for (int begin = 0; begin < count; begin += kPiecesAtOnce) {
+            const int end = std::min(count, begin + kPiecesAtOnce);
+            stop_if_wanted();
+            evaluate(places, space, coefficients, options.variation, pieces, begin, end, block);
+            for (int i = begin; i < end; ++i) {
+                const FacePoint* own = &block.points[static_cast<std::size_t>(kPoints) * (i - begin)];
+                const PieceSums& sums = block.sums[i - begin];
+                if (!std::isfinite(sums.abs_phi)) return std::numeric_limits<double>::infinity();
+                if (!total_known) total += sums.abs_phi;
+                if (!sums.varies) {
+                    take(own, sums);
+                } else if (total_known) {
+                    decide(i, own, sums);
+                } else {
+                    waits.push_back(i);
+                    held.points.insert(held.points.end(), own, own + kPoints);
+                    held.sums.push_back(sums);
+                }
+            }
+        }
+        for (std::size_t i = 0; i < waits.size(); ++i)
+            decide(waits[i], &held.points[static_cast<std::size_t>(kPoints) * i], held.sums[i]);
+        waits.clear();
+        held = {};
+        pieces.swap(divided);
+    }
+    return total > 0 ? unresolved / total : 0.0;
 }
 
 }  // namespace
@@ -207,39 +297,29 @@ double visit_quadrature(const Surface& source, const Chart& chart, const Differe
                         const QuadratureOptions& options) {
     if (const Eigen::MatrixXcd* values = space.tabulated())
         return visit_samples(source.operators, chart, *values * space.of_generators(coefficients), visit);
-    const Places places(source, chart);
-    std::vector<Piece> pieces = whole_faces(source.operators, chart), divided;
-    double total = 0, unresolved = 0;
-    for (int depth = 0; !pieces.empty(); ++depth) {
-        const int count = static_cast<int>(pieces.size());
-        divided.clear();
-        const int block = depth <= options.least_depth ? count : kPiecesAtOnce;  // all, to know the total
-        for (int begin = 0; begin < count; begin += block) {
-            const int end = std::min(count, begin + block);
-            const std::vector<FacePoint> points = evaluated(places, space, coefficients, pieces, begin, end);
-            if (depth <= options.least_depth) {
-                total = 0;
-                for (const FacePoint& p : points)
-                    if (std::isfinite(std::norm(p.phi))) total += p.weight * std::sqrt(std::norm(p.phi));
-            }
-            for (int i = begin; i < end; ++i) {
-                if ((i - begin) % kPiecesAtOnce == 0) stop_if_wanted();
-                const FacePoint* own = &points[static_cast<std::size_t>(kPoints) * (i - begin)];
-                const auto [part, varies] = spread(own, options.variation);
-                if (!std::isfinite(part)) return std::numeric_limits<double>::infinity();
-                const bool matters = varies && part > options.tolerance * total;
-                const bool possible = depth < options.most_depth && divided.size() < kMostPieces;
-                if (depth < options.least_depth || (matters && possible)) {
-                    divide(pieces[i], divided);
-                    continue;
-                }
-                if (matters) unresolved += part;
-                for (int n = 0; n < kPoints; ++n) visit(own[n]);
-            }
-        }
-        pieces.swap(divided);
+    return visit_pieces(source, chart, space, coefficients, options, [&](const FacePoint* own, const PieceSums&) {
+        for (int n = 0; n < kPoints; ++n) visit(own[n]);
+    });
+}
+
+SampleIntegrals integrals_over_samples(const Surface& source, const Chart& chart, const DifferentialSpace& space,
+                                       const Eigen::VectorXcd& coefficients) {
+    const int samples = source.operators.sample_count();
+    SampleIntegrals result{Eigen::VectorXcd::Zero(samples), Eigen::VectorXd::Zero(samples), 0};
+    if (const Eigen::MatrixXcd* values = space.tabulated()) {
+        result.unresolved = visit_samples(source.operators, chart, *values * space.of_generators(coefficients),
+                                          [&](const FacePoint& p) {
+                                              result.phi[p.sample] += p.weight * p.phi;
+                                              result.abs_phi[p.sample] += p.weight * std::sqrt(std::norm(p.phi));
+                                          });
+        return result;
     }
-    return total > 0 ? unresolved / total : 0.0;
+    result.unresolved =
+        visit_pieces(source, chart, space, coefficients, {}, [&](const FacePoint* own, const PieceSums& sums) {
+            result.phi[own->sample] += sums.phi;
+            result.abs_phi[own->sample] += sums.abs_phi;
+        });
+    return result;
 }
 
 SamplePoints points_near(const Singularities& singularities, const Surface& source, const Chart& chart) {

@@ -40,6 +40,18 @@ double visit_quadrature(const Surface& source, const Chart& chart, const Differe
                         const Eigen::VectorXcd& coefficients, const std::function<void(const FacePoint&)>& visit,
                         const QuadratureOptions& options = {});
 
+/// What that quadrature gives on every sample's part of its face.
+struct SampleIntegrals {
+    Eigen::VectorXcd phi;     ///< #S ∫φ, in the samples' frames; 0 where the chart excludes a sample
+    Eigen::VectorXd abs_phi;  ///< #S ∫|φ|
+    double unresolved = 0;    ///< what visit_quadrature returns
+};
+
+/// ∫φ and ∫|φ| over the samples, as visit_quadrature would add them up.
+/// @param coefficients space.size() of them
+SampleIntegrals integrals_over_samples(const Surface& source, const Chart& chart, const DifferentialSpace& space,
+                                       const Eigen::VectorXcd& coefficients);
+
 /// Points over which φ is averaged on the samples next to curves, pinned points and corners, where one point a sample
 /// would let φ see the noise of μ: triangles are divided into four until they are small against their distance from the
 /// next such place. None where there is no curve.
