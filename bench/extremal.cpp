@@ -171,7 +171,7 @@ int main(int argc, char** argv) {
                 Mesh mesh = mesh_of(name, size);
                 Measurement m;
                 const double start = now();
-                ready_memory(kMemoryPerFace * static_cast<std::size_t>(mesh.face_count()));
+                ready_memory_beside(memory_of_map(mesh.face_count()));
                 const Surface surface(std::move(mesh));
                 const ExtremalMap result = extremal_map(surface, boundary_of(name, surface));
                 m.seconds = now() - start;

@@ -102,7 +102,7 @@ class Map final : public Command {
         homotopy_.load();
         metric_.load(input_);
         const double start = seconds();
-        ready_memory(method_ == "extremal" ? kMemoryPerFace * static_cast<std::size_t>(input_.mesh.face_count()) : 0);
+        ready_memory_beside(method_ == "extremal" ? memory_of_map(input_.mesh.face_count()) : 0);
         const Surface source = metric_.surface_of(std::move(input_.mesh));
         std::vector<Finding> findings = source.findings;
         if (each_component_)  // several are what is asked for
