@@ -13,7 +13,7 @@ Eigen::VectorXd AndersonAcceleration::next(const Eigen::VectorXd& x, const Eigen
             g_differences_.pop_front();
             residual_differences_.pop_front();
         }
-    } else {
+    } else if (!g_differences_.empty() && g_differences_.back().size() != g.size()) {
         reset();
     }
     last_g_ = g;
@@ -32,6 +32,10 @@ Eigen::VectorXd AndersonAcceleration::next(const Eigen::VectorXd& x, const Eigen
 void AndersonAcceleration::reset() {
     g_differences_.clear();
     residual_differences_.clear();
+    leave_point();
+}
+
+void AndersonAcceleration::leave_point() {
     last_g_.resize(0);
     last_residual_.resize(0);
 }

@@ -18,6 +18,8 @@ class AndersonAcceleration {
 
     /// Forgets the past, for instance when the unknowns change meaning.
     void reset();
+    /// Another G of nearly the same derivative follows: what is known of that stays, the point is forgotten.
+    void leave_point();
 
   private:
     int window_;

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 #include <beltrami/base/effort.h>
 #include <beltrami/base/error.h>
+#include <beltrami/base/parallel.h>
 #include <beltrami/linear/backend.h>
 
 namespace beltrami::detail {
@@ -30,6 +33,70 @@ double infinity_norm(const SymmetricSolver::Matrix& lower) {
     return row_sums.size() ? row_sums.maxCoeff() : 0.0;
 }
 
+using Vectors = Eigen::MatrixXd;
+
+/// Sums of products of the columns of two matrices.
+Eigen::RowVectorXd columnwise(const Vectors& x, const Vectors& y) {
+    const Eigen::RowVectorXd zero = Eigen::RowVectorXd::Zero(x.cols());
+    return parallel_sum<Eigen::RowVectorXd>(
+        static_cast<int>(x.rows()), zero, [&](int first, int last) -> Eigen::RowVectorXd {
+            return x.middleRows(first, last - first).cwiseProduct(y.middleRows(first, last - first)).colwise().sum();
+        });
+}
+
+/// The pattern of a whole symmetric matrix by rows, and where the lower triangle has the values: products then write
+/// each row by itself.
+class WholePattern {
+  public:
+    explicit WholePattern(const SymmetricSolver::Matrix& lower) {
+        const auto n = static_cast<int>(lower.rows());
+        const int *begin = lower.outerIndexPtr(), *row = lower.innerIndexPtr();
+        begins_.assign(static_cast<std::size_t>(n) + 1, 0);
+        for (int c = 0; c < n; ++c)
+            for (int e = begin[c]; e < begin[c + 1]; ++e) {
+                ++begins_[row[e] + 1];
+                if (row[e] != c) ++begins_[c + 1];
+            }
+        std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
+        entries_.resize(static_cast<std::size_t>(begins_.back()));
+        std::vector<int> place(begins_.begin(), begins_.end() - 1);
+        for (int c = 0; c < n; ++c)
+            for (int e = begin[c]; e < begin[c + 1]; ++e) {
+                entries_[place[row[e]]++] = {c, e};
+                if (row[e] != c) entries_[place[c]++] = {row[e], e};
+            }
+    }
+    void multiply(const double* values, const Vectors& x, Vectors& result) const {
+        result.resize(x.rows(), x.cols());
+        for (Eigen::Index j = 0; j < x.cols(); j += 2)
+            j + 1 < x.cols() ? columns<2>(values, x, j, result) : columns<1>(values, x, j, result);
+    }
+
+  private:
+    struct Entry {
+        int column, slot;
+    };
+    template <int C>
+    void columns(const double* values, const Vectors& x, Eigen::Index first_column, Vectors& result) const {
+        const Eigen::Index n = x.rows();
+        const double* const from = x.data() + first_column * n;
+        double* const to = result.data() + first_column * n;
+        parallel_for(0, static_cast<int>(n), [&](int first, int last) {
+            for (int i = first; i < last; ++i) {
+                double sum[C] = {};
+                for (int e = begins_[i]; e < begins_[i + 1]; ++e) {
+                    const double value = values[entries_[e].slot];
+                    for (int c = 0; c < C; ++c) sum[c] += value * from[c * n + entries_[e].column];
+                }
+                for (int c = 0; c < C; ++c) to[c * n + i] = sum[c];
+            }
+        });
+    }
+
+    std::vector<int> begins_;
+    std::vector<Entry> entries_;
+};
+
 }  // namespace
 
 struct SymmetricSolver::Backend {
@@ -41,6 +108,12 @@ struct SymmetricSolver::Backend {
     bool has_factor = false;  ///< … or to earlier ones
     double norm = 0;
     mutable double residual = 0;
+    mutable std::optional<WholePattern> whole;  ///< once conjugate gradients have been asked for
+
+    void multiply(const Eigen::MatrixXd& x, Eigen::MatrixXd& result) const {
+        if (!whole) whole.emplace(lower);
+        whole->multiply(lower.valuePtr(), x, result);
+    }
 
     /// Rows that carry the null vector: a few steps of inverse iteration on the slightly shifted matrix.
     std::vector<int> unconstrained_rows() const {
@@ -161,11 +234,8 @@ bool SymmetricSolver::solve_near(const Eigen::MatrixXd& rhs, Eigen::MatrixXd& so
         return true;
     }
     if (!b.has_factor) return false;
-    const auto A = b.lower.selfadjointView<Eigen::Lower>();
-    const auto columnwise = [](const Eigen::MatrixXd& x, const Eigen::MatrixXd& y) -> Eigen::RowVectorXd {
-        return x.cwiseProduct(y).colwise().sum();
-    };
-    Eigen::MatrixXd residual = A * solution;
+    Eigen::MatrixXd residual;
+    b.multiply(solution, residual);
     // ‖x‖²_A of the guess measures the solution; every column on its own.
     const Eigen::RowVectorXd reference = columnwise(solution, residual).cwiseMax(0.0);
     residual = rhs - residual;
@@ -180,24 +250,33 @@ bool SymmetricSolver::solve_near(const Eigen::MatrixXd& rhs, Eigen::MatrixXd& so
                 worst = std::max(worst, target[j] > 0 ? rz[j] / target[j] : std::numeric_limits<double>::infinity());
         return worst;
     };
+    const auto by_rows = [&](const std::function<void(int, int)>& body) {
+        parallel_for(0, static_cast<int>(rhs.rows()), body);
+    };
     const double at_start = excess();
     direction = z;
     for (int step = 1; excess() > 1; ++step) {
         if (step > max_steps || !std::isfinite(excess())) return false;
-        image.noalias() = A * direction;
+        b.multiply(direction, image);
         const Eigen::RowVectorXd curvature = columnwise(direction, image);
-        for (Eigen::Index j = 0; j < rz.size(); ++j) {
-            if (!(rz[j] > target[j])) continue;
-            const double length = rz[j] / curvature[j];
-            solution.col(j) += length * direction.col(j);
-            residual.col(j) -= length * image.col(j);
-        }
+        by_rows([&](int first, int last) {
+            for (Eigen::Index j = 0; j < rz.size(); ++j) {
+                if (!(rz[j] > target[j])) continue;
+                const double length = rz[j] / curvature[j];
+                solution.col(j).segment(first, last - first) += length * direction.col(j).segment(first, last - first);
+                residual.col(j).segment(first, last - first) -= length * image.col(j).segment(first, last - first);
+            }
+        });
         b.cholesky->solve_roughly(residual, z);
         const Eigen::RowVectorXd next = columnwise(residual, z);
-        for (Eigen::Index j = 0; j < rz.size(); ++j) {
-            if (rz[j] > target[j]) direction.col(j) = z.col(j) + (next[j] / rz[j]) * direction.col(j);
-            rz[j] = std::max(0.0, next[j]);
-        }
+        by_rows([&](int first, int last) {
+            for (Eigen::Index j = 0; j < rz.size(); ++j)
+                if (rz[j] > target[j])
+                    direction.col(j).segment(first, last - first) =
+                        z.col(j).segment(first, last - first) +
+                        (next[j] / rz[j]) * direction.col(j).segment(first, last - first);
+        });
+        rz = next.cwiseMax(0.0);
         // At the rate so far, would the steps suffice?
         if (const double left = excess(); left > 1 && step >= 2 && std::isfinite(left)) {
             const double per_step = std::log(at_start / left) / step;

@@ -19,6 +19,10 @@ constexpr int kCoarsePart = 7, kFewestTriangles = 1'200, kMostTriangles = 5'000;
 
 /// The iteration ends there at this part of its bracket: a start need not be exact.
 constexpr double kWithinBracket = 0.01;
+/// From so many samples on a step costs more than all of another coarse mesh, of this part of the samples: there the
+/// iteration goes on until it knows how f-step and c-step answer, which the fine one then need not learn.
+constexpr int kAnsweredFrom = 300'000, kAnsweredPart = 50;
+constexpr double kAnsweredChange = 1e-4;
 
 /// Polynomials of this degree, until φ changes by less than this, at most so often.
 constexpr int kRoughDegree = 8, kRoughIterations = 12;
@@ -64,8 +68,10 @@ CoarseStart coarse_start(const Surface& source, const BoundaryCondition& boundar
     const CircleValues values = circle_values(source, boundary, chart);
     if (values.angle.empty()) return {};
 
+    const int samples = source.operators.sample_count();
+    const bool answered = samples >= kAnsweredFrom;
     Mesh mesh = disk(disk_rings_for_triangles(
-        std::clamp(source.operators.sample_count() / kCoarsePart, kFewestTriangles, kMostTriangles)));
+        answered ? samples / kAnsweredPart : std::clamp(samples / kCoarsePart, kFewestTriangles, kMostTriangles)));
     for (int v = 0; v < mesh.vertex_count(); ++v) {
         const Complex z = std::polar(1.0, phase) * Complex(mesh.positions(v, 0), mesh.positions(v, 1));
         mesh.positions.row(v) << z.real(), z.imag();
@@ -85,8 +91,12 @@ CoarseStart coarse_start(const Surface& source, const BoundaryCondition& boundar
     HamiltonIteration::Options coarse_options = iteration_options(options);
     coarse_options.progress = {};
     coarse_options.grow_last = false;
-    coarse_options.within_bracket = kWithinBracket;
+    coarse_options.within_bracket = answered ? 0 : kWithinBracket;
     adapt_to_smooth(options, coarse_options);
+    if (answered) {
+        coarse_options.tolerance = std::max(coarse_options.tolerance, kAnsweredChange);
+        coarse_options.k_tolerance = std::max(coarse_options.k_tolerance, kAnsweredChange * kAnsweredChange);
+    }
     problem.map_step().set_near(false);
     CoarseStart result;
     if (largest_degree > kRoughDegree) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <beltrami/base/error.h>
 #include <beltrami/linear/anderson.h>
@@ -91,24 +92,32 @@ class Settling {
 /// How φ and k of the next f-step follow from a c-step: they are its own, or led further by acceleration.
 class Stride {
   public:
-    explicit Stride(const HamiltonIteration::Options& options)
-        : window_(options.anderson_window), begin_below_(options.accelerate_below), anderson_(window_) {}
+    /// @param known from elsewhere, or null
+    Stride(const HamiltonIteration::Options& options, std::shared_ptr<AndersonAcceleration> known)
+        : window_(options.anderson_window),
+          begin_below_(options.accelerate_below),
+          anderson_(known ? std::move(known) : std::make_shared<AndersonAcceleration>(window_)) {}
+    /// What is known for another iteration of the kind.
+    std::shared_ptr<AndersonAcceleration> known() {
+        anderson_->leave_point();
+        return anderson_;
+    }
     /// In a larger space.
     void restart() {
-        anderson_.reset();
+        anderson_->reset();
         relaxation_ = 1;
     }
     void take(const CoefficientStep::Result& step, double change, HamiltonState& state) {
         // Acceleration can lead astray where the iteration is not smooth; a plain step then brings it back.
         const bool astray = accelerated_ && change > last_change_;
-        if (astray) anderson_.reset();
+        if (astray) anderson_->reset();
         // Two φ that call for each other in turn are brought together by going half the way.
         if (change > kTurnsBack && change > 0.8 * last_change_)
             relaxation_ = std::max(0.5 * relaxation_, kLeastRelaxation);
         last_change_ = change;
         accelerated_ = window_ > 0 && change < begin_below_ && !astray;
         if (accelerated_) {
-            const Eigen::VectorXd next = anderson_.next(pack(state.direction, state.k), pack(step.direction, step.k));
+            const Eigen::VectorXd next = anderson_->next(pack(state.direction, state.k), pack(step.direction, step.k));
             const Eigen::Index m = state.direction.size();
             state.direction.real() = next.head(m);
             state.direction.imag() = next.segment(m, m);
@@ -127,7 +136,7 @@ class Stride {
   private:
     int window_;
     double begin_below_;
-    AndersonAcceleration anderson_;
+    std::shared_ptr<AndersonAcceleration> anderson_;
     double last_change_ = 1, relaxation_ = 1;
     bool accelerated_ = false;
 };
@@ -192,7 +201,7 @@ void HamiltonIteration::begin(HamiltonState& state, std::unique_ptr<Differential
         state.space = std::move(smallest);
         coefficient_step_.set_space(*state.space);
         const Eigen::VectorXcd mu = beltrami_coefficient(map_step_.derivatives());
-        largest = mu.cwiseAbs().maxCoeff();
+        largest = std::sqrt(mu.cwiseAbs2().maxCoeff());
         step_ = coefficient_step_.solve(mu, {}, first_step());
         if (!state.space->preliminary()) grow(state, mu);
         state.direction = step_.direction;
@@ -227,7 +236,7 @@ void HamiltonIteration::run(HamiltonState& state, std::unique_ptr<DifferentialSp
     const bool from_elsewhere = state.space != nullptr;
     begin(state, std::move(smallest));
     Settling settling(options_);
-    Stride stride(options_);
+    Stride stride(options_, std::exchange(state.acceleration, nullptr));
     Kept best;      // is returned if nothing settles
     Kept fallback;  // had settled in a smaller space
     int grown_at = 0;
@@ -237,7 +246,7 @@ void HamiltonIteration::run(HamiltonState& state, std::unique_ptr<DifferentialSp
         if (step_.merit > best.step.merit) best = {step_, map_step_.snapshot()};
         change = (step_.direction - state.direction).norm();
         const double k_change = std::abs(step_.k - state.k);
-        history_.push_back({step_.k, change, state.space->size(), mu.cwiseAbs().maxCoeff()});
+        history_.push_back({step_.k, change, state.space->size(), std::sqrt(mu.cwiseAbs2().maxCoeff())});
         if (options_.progress && !options_.progress(iterations_, step_.k))
             throw Error(Cause::cancelled, "cancelled after iteration " + std::to_string(iterations_));
 
@@ -276,6 +285,7 @@ void HamiltonIteration::run(HamiltonState& state, std::unique_ptr<DifferentialSp
     }
     state.direction = step_.direction;
     state.k = step_.k;
+    state.acceleration = stride.known();
 }
 
 }  // namespace beltrami

@@ -6,6 +6,7 @@
 
 #include <beltrami/base/iteration_options.h>
 #include <beltrami/coefficient/coefficient_step.h>
+#include <beltrami/linear/anderson.h>
 #include <beltrami/solve/map_step.h>
 #include <beltrami/teichmuller/iteration.h>
 
@@ -16,6 +17,8 @@ struct HamiltonState {
     std::shared_ptr<const DifferentialSpace> space;
     Eigen::VectorXcd direction;  ///< coefficients of φ, of length 1
     double k = 0;
+    /// What is known of how f-step and c-step together change them: on a finer mesh it is nearly the same. May be null.
+    std::shared_ptr<AndersonAcceleration> acceleration = nullptr;
 };
 
 /// Hamilton's iteration, the one loop for every topology: the c-step finds φ and k of a map, the f-step the map with

@@ -51,6 +51,7 @@ HamiltonIteration SphereProblem::settle(SphereMapStep& step, const HamiltonItera
     }
     HamiltonIteration iteration(step, *coefficient_step_, options);
     iteration.run(state_, nullptr);
+    state_.acceleration.reset();  // the next run is another problem's
     return iteration;
 }
 
