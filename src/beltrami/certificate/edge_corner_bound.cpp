@@ -12,16 +12,22 @@ namespace {
 /// Angles of the image nearer than this to 0 or 2π are not told from each other.
 constexpr double kLeastAngle = 1e-9;
 
-/// #V sums of the angles of faces' corners, in the metric: at a corner of a quad that of its two edges.
+/// #V sums of the angles of faces' corners at vertices of the boundary, in the metric: at a corner of a quad that of
+/// its two edges; 0 inside.
 std::vector<double> angle_sums(const Surface& source) {
     const FaceList& faces = source.mesh.faces;
     std::vector<double> sums(static_cast<std::size_t>(source.mesh.vertex_count()), 0.0);
-    const Positions corners = source.metric ? *source.metric : corner_positions(source.mesh);
+    const auto point = [&](int c) -> Eigen::Vector3d {
+        if (!source.metric) return source.mesh.point(faces.vertices()[c]);
+        return {(*source.metric)(c, 0), (*source.metric)(c, 1),
+                source.metric->cols() > 2 ? (*source.metric)(c, 2) : 0.0};
+    };
     for (int f = 0; f < faces.size(); ++f) {
         const int first = faces.first_corner(f), n = faces.degree(f);
         for (int j = 0; j < n; ++j) {
-            const Eigen::RowVectorXd here = corners.row(first + j), a = corners.row(first + (j + 1) % n) - here,
-                                     b = corners.row(first + (j + n - 1) % n) - here;
+            if (!source.topology.on_boundary[faces.vertices()[first + j]]) continue;
+            const Eigen::Vector3d here = point(first + j), a = point(first + (j + 1) % n) - here,
+                                  b = point(first + (j + n - 1) % n) - here;
             // Kahan: accurate for all angles.
             const double la = a.norm(), lb = b.norm();
             sums[faces.vertices()[first + j]] += 2 * std::atan2((a * lb - b * la).norm(), (a * lb + b * la).norm());

@@ -1,5 +1,6 @@
 #include <beltrami/charts/chart.h>
 
+#include <beltrami/base/parallel.h>
 #include <beltrami/operators/distortion.h>
 
 namespace beltrami {
@@ -19,35 +20,48 @@ double bilinear_shape(int q, int j) {
     return steps == 0 ? near : steps == 2 ? far : side;
 }
 
+bool without_shape(Complex dz, Complex dzbar) {
+    return !(std::norm(dzbar) < kWithoutShape * kWithoutShape * std::norm(dz));
+}
+
 }  // namespace
 
 Eigen::VectorXcd at_samples(const Operators& operators, const Eigen::VectorXcd& values) {
     Eigen::VectorXcd result(operators.sample_count());
-    for (int s = 0, q = 0; s < operators.sample_count(); ++s) {
-        q = s > 0 && operators.faces[s] == operators.faces[s - 1] ? q + 1 : 0;
-        const auto stencil = operators.stencil(s);
-        Complex sum = 0;
-        for (std::size_t j = 0; j < stencil.size(); ++j)
-            sum += values[stencil[j]] * (stencil.size() == 3 ? 1.0 / 3 : bilinear_shape(q, static_cast<int>(j)));
-        result[s] = sum;
-    }
+    parallel_for(0, operators.sample_count(), [&](int begin, int end) {
+        // A chunk may begin within a face.
+        int q = 0;
+        while (begin > q && operators.faces[begin - q - 1] == operators.faces[begin]) ++q;
+        for (int s = begin; s < end; ++s) {
+            if (s > begin) q = operators.faces[s] == operators.faces[s - 1] ? q + 1 : 0;
+            const auto stencil = operators.stencil(s);
+            Complex sum = 0;
+            for (std::size_t j = 0; j < stencil.size(); ++j)
+                sum += values[stencil[j]] * (stencil.size() == 3 ? 1.0 / 3 : bilinear_shape(q, static_cast<int>(j)));
+            result[s] = sum;
+        }
+    });
     return result;
 }
 
 bool unseen(const Operators& operators, int sample, const Chart& chart) {
     const auto [dz, dzbar] = operators.derivatives(sample, chart.vertices);
-    return !(std::abs(dzbar) < kWithoutShape * std::abs(dz));
+    return without_shape(dz, dzbar);
 }
 
 double unseen_part(const Surface& source, const Chart& chart) {
-    double all = 0, lost = 0;
-    for (int s = 0; s < source.operators.sample_count(); ++s) {
-        const auto [dz, dzbar] = source.operators.derivatives(s, chart.vertices);
-        const double area = source.operators.weights[s] * std::abs(std::norm(dz) - std::norm(dzbar));
-        all += area;
-        if (unseen(source.operators, s, chart)) lost += area;
-    }
-    return lost / all;
+    const Eigen::Array2d areas =
+        parallel_sum<Eigen::Array2d>(source.operators.sample_count(), Eigen::Array2d::Zero(), [&](int begin, int end) {
+            double all = 0, lost = 0;
+            for (int s = begin; s < end; ++s) {
+                const auto [dz, dzbar] = source.operators.derivatives(s, chart.vertices);
+                const double area = source.operators.weights[s] * std::abs(std::norm(dz) - std::norm(dzbar));
+                all += area;
+                if (without_shape(dz, dzbar)) lost += area;
+            }
+            return Eigen::Array2d(all, lost);
+        });
+    return areas[1] / areas[0];
 }
 
 Eigen::VectorXd vertex_areas(const Operators& operators) {
@@ -66,15 +80,17 @@ void take_samples(const Operators& operators, const Eigen::VectorXcd& values, Ch
     chart.positions = at_samples(operators, values);
     chart.derivatives.resize(operators.sample_count());
     chart.excluded.assign(operators.sample_count(), 0);
-    std::vector<int> excluded;
-    for (int s = 0; s < operators.sample_count(); ++s) {
-        const auto [dz, dzbar] = operators.derivatives(s, values);
-        chart.derivatives[s] = dz;
-        if (!(std::abs(dzbar) < kMostDistorted * std::abs(dz))) {
-            chart.excluded[s] = 1;
-            if (excluded.empty() || operators.faces[s] != excluded.back()) excluded.push_back(operators.faces[s]);
+    parallel_for(0, operators.sample_count(), [&](int begin, int end) {
+        for (int s = begin; s < end; ++s) {
+            const auto [dz, dzbar] = operators.derivatives(s, values);
+            chart.derivatives[s] = dz;
+            chart.excluded[s] = !(std::norm(dzbar) < kMostDistorted * kMostDistorted * std::norm(dz));
         }
-    }
+    });
+    std::vector<int> excluded;
+    for (int s = 0; s < operators.sample_count(); ++s)
+        if (chart.excluded[s] && (excluded.empty() || operators.faces[s] != excluded.back()))
+            excluded.push_back(operators.faces[s]);
     chart.excluded_faces = static_cast<int>(excluded.size());
     if (chart.excluded_faces)
         chart.warnings.push_back({WarningKind::chart,

@@ -271,8 +271,7 @@ Eigen::VectorXcd with_conjugate(const Surface& source, const BeltramiSolver& dir
     return conjugate_by_system(source, h, offset);
 }
 
-std::optional<Eigen::VectorXcd> disk_map_by_greens_function(const Surface& source, const BeltramiSolver& dirichlet,
-                                                            ConjugateBy way, int* factorizations) {
+std::optional<GreensFunction> greens_function(const Surface& source, const BeltramiSolver& dirichlet) {
     // −Δψ = 1, ψ = 0 on the boundary, is largest deep inside.
     const Eigen::VectorXd depth = dirichlet.solve_poisson(vertex_areas(source.operators));
     int pole = -1;
@@ -285,15 +284,26 @@ std::optional<Eigen::VectorXcd> disk_map_by_greens_function(const Surface& sourc
     } catch (const Error&) {  // the patch cannot be flattened by itself
     }
     if (!singular) return {};
-    const Eigen::VectorXd h =
-        dirichlet.solve(Eigen::VectorXcd::Zero(source.mesh.vertex_count()), singular->offset).real();
+    Eigen::VectorXd h = dirichlet.solve(Eigen::VectorXcd::Zero(source.mesh.vertex_count()), singular->offset).real();
+    return GreensFunction{std::move(h), std::move(singular->factor), std::move(singular->offset), singular->cut_corner};
+}
+
+Eigen::VectorXcd disk_map_by_greens_function(const Surface& source, const BeltramiSolver& dirichlet,
+                                             const GreensFunction& of, ConjugateBy way, int* factorizations) {
     const Eigen::VectorXcd sum =
-        with_conjugate(source, dirichlet, way, h, singular->offset, singular->cut_corner, factorizations);
+        with_conjugate(source, dirichlet, way, of.regular, of.offset, of.cut_corner, factorizations);
     Eigen::VectorXcd g(sum.size());
     parallel_for(0, static_cast<int>(g.size()), [&](int begin, int end) {
-        for (int v = begin; v < end; ++v) g[v] = singular->factor[v] * std::exp(sum[v]);
+        for (int v = begin; v < end; ++v) g[v] = of.factor[v] * std::exp(sum[v]);
     });
     return g;
+}
+
+std::optional<Eigen::VectorXcd> disk_map_by_greens_function(const Surface& source, const BeltramiSolver& dirichlet,
+                                                            ConjugateBy way, int* factorizations) {
+    const auto of = greens_function(source, dirichlet);
+    if (!of) return {};
+    return disk_map_by_greens_function(source, dirichlet, *of, way, factorizations);
 }
 
 }  // namespace beltrami

@@ -28,6 +28,18 @@ enum class ConjugateBy { flux, system };
 std::optional<Eigen::VectorXcd> disk_map_by_greens_function(const Surface& source, const BeltramiSolver& dirichlet,
                                                             ConjugateBy way, int* factorizations);
 
+/// What these maps have in common, whichever way h* is found.
+struct GreensFunction {
+    Eigen::VectorXd regular;  ///< #V h
+    Eigen::VectorXcd factor;  ///< #V w on the patch, else 1
+    Eigen::VectorXcd offset;  ///< #S ∂̄λ outside the patch, else 0
+    int cut_corner = -1;      ///< where the boundary edge begins along which λ turns by 2πi
+};
+/// @return nothing where disk_map_by_greens_function returns nothing
+std::optional<GreensFunction> greens_function(const Surface& source, const BeltramiSolver& dirichlet);
+Eigen::VectorXcd disk_map_by_greens_function(const Surface& source, const BeltramiSolver& dirichlet,
+                                             const GreensFunction& of, ConjugateBy way, int* factorizations);
+
 /// h + i h* with ∂̄(h + i h*) + r ≈ 0 for the h that is harmonic in this sense. By flux: h* on the boundary is summed
 /// up from the flux of h, which the finite elements know to second order; h* = 0 in the middle of the edge before the
 /// first boundary vertex. By a system: Σ A |∂̄(h + i h*) + r|² is least, h* = 0 at the first boundary vertex.

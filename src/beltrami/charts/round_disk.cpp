@@ -5,6 +5,7 @@
 #include <optional>
 
 #include <beltrami/base/constants.h>
+#include <beltrami/base/parallel.h>
 #include <beltrami/charts/greens_function.h>
 #include <beltrami/charts/vertex_source.h>
 #include <beltrami/plane/circle_fit.h>
@@ -99,51 +100,66 @@ void slide(const Surface& source, Eigen::VectorXcd& g, const RoundDiskOptions& o
 }  // namespace
 
 void centre_in_disk(Eigen::VectorXcd& points, const Eigen::VectorXd& weights) {
-    double total = 0;
-    for (const double w : weights) total += w;
+    const double total = weights.sum();
     for (int step = 0; step < 200; ++step) {
-        Complex mean = 0;
-        for (Eigen::Index v = 0; v < points.size(); ++v) mean += weights[v] * points[v];
-        mean /= total;
+        const Complex mean = weights.cast<Complex>().cwiseProduct(points).sum() / total;
         if (std::abs(mean) < 1e-14) break;
-        for (Eigen::Index v = 0; v < points.size(); ++v)
-            points[v] = (points[v] - mean) / (1.0 - std::conj(mean) * points[v]);
+        parallel_for(0, static_cast<int>(points.size()), [&](int begin, int end) {
+            for (int v = begin; v < end; ++v) {
+                const Complex below = 1.0 - std::conj(mean) * points[v];
+                points[v] = (points[v] - mean) * std::conj(below) / std::norm(below);
+            }
+        });
     }
 }
 
 namespace {
 
-/// g = (w − p) exp(h + i h*), h = −log|w − p| on the boundary, where w is the plane or flattens the whole surface.
-Eigen::VectorXcd disk_map_by_flattening(const Surface& source, const BeltramiSolver& dirichlet, ConjugateBy way,
-                                        int* factorizations) {
-    Eigen::VectorXcd w;
-    if (const Eigen::VectorXcd* z = source.coordinate()) {
-        w = *z;
-    } else {
-        FlattenOptions options;
-        options.tolerance = kFlattenTolerance;
-        const Flattening flat =
-            source.metric ? flatten(source.mesh, *source.metric, options) : flatten(source.mesh, options);
-        w = flat.positions;
-        *factorizations += flat.factorizations;
+/// Maps to the disk, 0 at a point deep inside, |g| = 1 on the boundary up to discretisation: what does not depend on
+/// how the conjugate function is found is found once.
+class DiskMaps {
+  public:
+    DiskMaps(const Surface& source, const BeltramiSolver& dirichlet, int* factorizations)
+        : source_(source), dirichlet_(dirichlet), factorizations_(factorizations) {
+        if (!source.in_plane() && source.operators.sample_count() >= kGreensFunctionFrom)
+            greens_ = greens_function(source, dirichlet);
+        if (!greens_) flatten_all();
     }
-    const Complex pole = deep_point(source, dirichlet, w);
-    Eigen::VectorXd real = Eigen::VectorXd::Zero(w.size());
-    for (const int v : source.topology.boundary_loops[0]) real[v] = -std::log(std::abs(w[v] - pole));
-    const Eigen::VectorXcd h =
-        with_conjugate(source, dirichlet, way, harmonic_extension(dirichlet, real), {}, -1, factorizations);
-    Eigen::VectorXcd g(w.size());
-    for (Eigen::Index v = 0; v < g.size(); ++v) g[v] = (w[v] - pole) * std::exp(h[v]);
-    return g;
-}
+    Eigen::VectorXcd by(ConjugateBy way) const {
+        if (greens_) return disk_map_by_greens_function(source_, dirichlet_, *greens_, way, factorizations_);
+        const Eigen::VectorXcd h = with_conjugate(source_, dirichlet_, way, regular_, {}, -1, factorizations_);
+        Eigen::VectorXcd g(from_pole_.size());
+        for (Eigen::Index v = 0; v < g.size(); ++v) g[v] = from_pole_[v] * std::exp(h[v]);
+        return g;
+    }
 
-/// 0 at a point deep inside, |g| = 1 on the boundary up to discretisation.
-Eigen::VectorXcd disk_map(const Surface& source, const BeltramiSolver& dirichlet, ConjugateBy way,
-                          int* factorizations) {
-    if (!source.in_plane() && source.operators.sample_count() >= kGreensFunctionFrom)
-        if (auto g = disk_map_by_greens_function(source, dirichlet, way, factorizations)) return std::move(*g);
-    return disk_map_by_flattening(source, dirichlet, way, factorizations);
-}
+  private:
+    /// g = (w − p) exp(h + i h*), h = −log|w − p| on the boundary, where w is the plane or flattens the whole surface.
+    void flatten_all() {
+        Eigen::VectorXcd w;
+        if (const Eigen::VectorXcd* z = source_.coordinate()) {
+            w = *z;
+        } else {
+            FlattenOptions options;
+            options.tolerance = kFlattenTolerance;
+            const Flattening flat =
+                source_.metric ? flatten(source_.mesh, *source_.metric, options) : flatten(source_.mesh, options);
+            w = flat.positions;
+            *factorizations_ += flat.factorizations;
+        }
+        from_pole_ = w.array() - deep_point(source_, dirichlet_, w);
+        Eigen::VectorXd real = Eigen::VectorXd::Zero(w.size());
+        for (const int v : source_.topology.boundary_loops[0]) real[v] = -std::log(std::abs(from_pole_[v]));
+        regular_ = harmonic_extension(dirichlet_, real);
+    }
+
+    const Surface& source_;
+    const BeltramiSolver& dirichlet_;
+    int* factorizations_;
+    std::optional<GreensFunction> greens_;
+    Eigen::VectorXcd from_pole_;  ///< w − p, where there is no Green's function
+    Eigen::VectorXd regular_;     ///< h there
+};
 
 /// @param dirichlet may be null
 Chart compute_chart(const Surface& source, const BeltramiSolver* dirichlet, const RoundDiskOptions& options) {
@@ -161,8 +177,9 @@ Chart compute_chart(const Surface& source, const BeltramiSolver* dirichlet, cons
         ++factorizations;
     }
     const Eigen::VectorXd areas = vertex_areas(source.operators);
+    const DiskMaps maps(source, *dirichlet, &factorizations);
     const auto chart_by = [&](ConjugateBy way) {
-        Eigen::VectorXcd g = disk_map(source, *dirichlet, way, &factorizations);
+        Eigen::VectorXcd g = maps.by(way);
         for (const int v : source.topology.boundary_loops[0]) g[v] /= std::abs(g[v]);
         centre_in_disk(g, areas);
         return make_chart(source, std::move(g), false);

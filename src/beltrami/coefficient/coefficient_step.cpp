@@ -25,10 +25,10 @@ constexpr std::array kColdRoundings{0.3, 0.1, 0.03};
 constexpr double kColdStep = 0.05;
 
 Complex clipped(Complex mu, double clip) {
-    const double size = std::abs(mu);
-    if (std::isnan(size)) return 0;
-    if (std::isinf(size)) return clip;
-    return size > clip ? mu * (clip / size) : mu;
+    const double square = std::norm(mu);
+    if (std::isnan(square)) return 0;
+    if (std::isinf(square)) return clip;
+    return square > clip * clip ? mu * (clip / std::sqrt(square)) : mu;
 }
 
 /// Points of the canonical domain itself.
@@ -38,8 +38,10 @@ ChartPoints in_domain(const Eigen::VectorXcd& points) {
 
 Eigen::VectorXd areas_in_domain(const Operators& operators, const Chart& chart) {
     Eigen::VectorXd areas(operators.sample_count());
-    for (int s = 0; s < operators.sample_count(); ++s)
-        areas[s] = chart.excluded[s] ? 0.0 : operators.weights[s] * std::norm(chart.derivatives[s]);
+    parallel_for(0, operators.sample_count(), [&](int first, int last) {
+        for (int s = first; s < last; ++s)
+            areas[s] = chart.excluded[s] ? 0.0 : operators.weights[s] * std::norm(chart.derivatives[s]);
+    });
     return areas;
 }
 
@@ -176,11 +178,13 @@ Eigen::VectorXcd CoefficientStep::coefficient(double k, const Eigen::VectorXcd& 
         delta = area > 0 ? std::max(least_rounding_, kRounding * edge_) * sum / area : 0.0;
     }
     Eigen::VectorXcd nu(phi.size());
-    for (Eigen::Index s = 0; s < phi.size(); ++s) {
-        const double rounded = delta * std::norm(chart_.derivatives[s]);
-        const double size = std::sqrt(std::norm(phi[s]) + rounded * rounded);
-        nu[s] = size > 0 ? k * std::conj(phi[s]) / size : 0.0;
-    }
+    parallel_for(0, static_cast<int>(phi.size()), [&](int first, int last) {
+        for (int s = first; s < last; ++s) {
+            const double rounded = delta > 0 ? delta * std::norm(chart_.derivatives[s]) : 0.0;
+            const double size = std::sqrt(std::norm(phi[s]) + rounded * rounded);
+            nu[s] = size > 0 ? k / size * std::conj(phi[s]) : 0.0;
+        }
+    });
     return nu;
 }
 
@@ -253,9 +257,11 @@ class SampleNorm final : public DualNorm {
 
 CoefficientStep::Weights CoefficientStep::weights_of(const Eigen::VectorXcd& mu) const {
     const int samples = source_.operators.sample_count();
-    Weights weights{Eigen::VectorXcd::Zero(samples), Eigen::VectorXd::Zero(samples)};
+    Weights weights{Eigen::VectorXcd(samples), Eigen::VectorXd(samples)};
     parallel_for(0, samples, [&](int first, int last) {
         for (int s = first; s < last; ++s) {
+            weights.pairing[s] = 0;
+            weights.norm[s] = 0;
             if (chart_.excluded[s]) continue;
             const Complex m = clipped(mu[s], clip_);
             const double square = std::norm(m), area = source_.operators.weights[s];
@@ -293,25 +299,38 @@ Eigen::VectorXcd CoefficientStep::begin(const Eigen::VectorXcd& start) {
 
 CoefficientStep::Result CoefficientStep::solve_on_cells(const Weights& weights, const Eigen::VectorXcd& start,
                                                         const DualOptions& options) {
-    const Eigen::VectorXcd square = chart_.derivatives.cwiseProduct(chart_.derivatives);
-    problem_.weights = cells_->node_weights(weights.norm.cwiseProduct(square.cwiseAbs()));
-    problem_.pairing = sampled_.space().from_generators(
-        at_places_.transposed_times(cells_->place_weights(weights.pairing.cwiseProduct(square))));
+    const int samples = source_.operators.sample_count();
+    {
+        Weights in_domain{Eigen::VectorXcd(samples), Eigen::VectorXd(samples)};
+        parallel_for(0, samples, [&](int first, int last) {
+            for (int s = first; s < last; ++s) {
+                const Complex derivative = chart_.derivatives[s];
+                in_domain.pairing[s] = weights.pairing[s] * (derivative * derivative);
+                in_domain.norm[s] = weights.norm[s] * std::norm(derivative);
+            }
+        });
+        problem_.weights = cells_->node_weights(in_domain.norm);
+        problem_.pairing =
+            sampled_.space().from_generators(at_places_.transposed_times(cells_->place_weights(in_domain.pairing)));
+    }
     const Eigen::VectorXcd at = begin(start);
     const DualSolution dual = solve_dual(problem_, at, options);
     moved_ = dual.moved;
 
     Result result = result_of(dual);
     result.phi = values(result.direction);
-    double pairing = 0, norm = 0, plain = 0;
-    for (Eigen::Index i = 0; i < result.phi.size(); ++i) {
-        if (chart_.excluded[i]) continue;
-        const double size = std::sqrt(std::norm(result.phi[i]));
-        pairing += std::real(weights.pairing[i] * result.phi[i]);
-        norm += weights.norm[i] * size;
-        plain += source_.operators.weights[i] * size;
-    }
-    set_dilatation(pairing, norm, plain, result);
+    const Eigen::Array3d sums = parallel_sum<Eigen::Array3d>(samples, Eigen::Array3d::Zero(), [&](int first, int last) {
+        double pairing = 0, norm = 0, plain = 0;
+        for (int s = first; s < last; ++s) {
+            if (chart_.excluded[s]) continue;
+            const double size = std::sqrt(std::norm(result.phi[s]));
+            pairing += std::real(weights.pairing[s] * result.phi[s]);
+            norm += weights.norm[s] * size;
+            plain += source_.operators.weights[s] * size;
+        }
+        return Eigen::Array3d(pairing, norm, plain);
+    });
+    set_dilatation(sums[0], sums[1], sums[2], result);
     return result;
 }
 
@@ -349,9 +368,12 @@ CoefficientStep::Result CoefficientStep::solve_on_samples(const Weights& weights
     last_values_ = result.phi;
     const Eigen::VectorXd areas =
         at_points(Eigen::Map<const Eigen::VectorXd>(source_.operators.weights.data(), samples));
-    double plain = 0;
-    for (Eigen::Index i = 0; i < phi.size(); ++i)
-        if (norm_weight[i] > 0) plain += areas[i] * std::sqrt(std::norm(phi[i]));
+    const double plain = parallel_sum<double>(static_cast<int>(phi.size()), 0.0, [&](int first, int last) {
+        double sum = 0;
+        for (int i = first; i < last; ++i)
+            if (norm_weight[i] > 0) sum += areas[i] * std::sqrt(std::norm(phi[i]));
+        return sum;
+    });
     set_dilatation(dual.pairing / length, size, plain, result);
     return result;
 }

@@ -234,7 +234,7 @@ class TiltedNorm {
                 continue;  // with the Hessian of the place
             }
             x += length * direction;
-            reach = kReach * length * phi_step.cwiseAbs();
+            reach = kReach * length * sizes_of(phi_step, 0);
             ++end.steps;
             const double moved = length * direction.norm();
             if (last_moved > 0) rate_ = std::min(1.0, moved / last_moved);
@@ -305,12 +305,12 @@ DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& star
     Eigen::VectorXd x = view.pack(c) / along;
     Eigen::VectorXcd coarse_phi = combination(problem.basis, view.unpack(x));
     const double total = problem.weights.sum();
-    const auto mean_size = [&] { return total > 0 ? problem.weights.dot(coarse_phi.cwiseAbs()) / total : 0.0; };
+    const auto mean_size = [&] { return total > 0 ? problem.weights.dot(sizes_of(coarse_phi, 0)) / total : 0.0; };
     const double delta = problem.rounding * mean_size();
     TiltedNorm coarse(problem, view, p, delta);
     const Eigen::VectorXcd start_phi = coarse_phi;
     Eigen::VectorXd reach = options.reach.size() ? Eigen::VectorXd(mean_size() * options.reach)
-                                                 : Eigen::VectorXd(kFirstReach * coarse_phi.cwiseAbs());
+                                                 : Eigen::VectorXd(kFirstReach * sizes_of(coarse_phi, 0));
     if (x.size() == 1) {  // the hyperplane of a single real function is a point
         solution.converged = true;
         solution.phi = fine.values(view.unpack(x));
@@ -381,7 +381,7 @@ DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& star
     }
     solution.coefficients = view.unpack(x);
     solution.pairing = p.dot(x);
-    solution.moved = (coarse_phi - start_phi).cwiseAbs() / mean_size();
+    solution.moved = sizes_of(coarse_phi - start_phi, 0) / mean_size();
     return solution;
 }
 

@@ -1,5 +1,7 @@
 #include <beltrami/evening/dilatation_spread.h>
 
+#include <cmath>
+
 #include <beltrami/base/parallel.h>
 
 namespace beltrami {
@@ -13,14 +15,20 @@ DilatationSpread::DilatationSpread(const Operators& operators)
 
 void DilatationSpread::set_coefficient(double k, const Eigen::VectorXcd& phi, double anchor) {
     k_ = k;
-    double total = 0;
-    for (Eigen::Index s = 0; s < phi.size(); ++s) total += operators_.weights[s] * std::abs(phi[s]);
-    for (Eigen::Index s = 0; s < phi.size(); ++s) {
-        const double size = std::abs(phi[s]);
-        samples_[s].nu_re = size > 0 ? k * phi[s].real() / size : 0;
-        samples_[s].nu_im = size > 0 ? -k * phi[s].imag() / size : 0;
-        samples_[s].anchor = total > 0 ? anchor * operators_.weights[s] * size / total : 0;
-    }
+    const int count = static_cast<int>(phi.size());
+    const double total = parallel_sum<double>(count, 0.0, [&](int first, int last) {
+        double sum = 0;
+        for (int s = first; s < last; ++s) sum += operators_.weights[s] * std::sqrt(std::norm(phi[s]));
+        return sum;
+    });
+    parallel_for(0, count, [&](int first, int last) {
+        for (int s = first; s < last; ++s) {
+            const double size = std::sqrt(std::norm(phi[s]));
+            samples_[s].nu_re = size > 0 ? k * phi[s].real() / size : 0;
+            samples_[s].nu_im = size > 0 ? -k * phi[s].imag() / size : 0;
+            samples_[s].anchor = total > 0 ? anchor * operators_.weights[s] * size / total : 0;
+        }
+    });
 }
 
 void DilatationSpread::set_map(const Eigen::VectorXcd& f) {

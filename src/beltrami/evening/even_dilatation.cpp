@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <iterator>
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -31,7 +32,7 @@ constexpr Stage kStages[] = {{2, 30, false, 0.02}, {2, 100, true, 0.003}, {1, 20
 constexpr int kStageCount = static_cast<int>(std::size(kStages));
 constexpr Stage kLastStage{3, 400, false, 0};
 /// Samples whose derivatives are found before they are added up.
-constexpr int kSamplesAtOnce = 8192;
+constexpr int kSamplesAtOnce = 1024;
 /// A stage in which E moves by less than this part of it is followed by the last one.
 constexpr double kSettled = 0.02;
 /// Rings around outliers, round by round.
@@ -46,6 +47,7 @@ class Evening {
     Evening(const Surface& source, std::vector<Freedom> freedoms, const EvenDilatationOptions& options)
         : operators_(source.operators),
           freedoms_(std::move(freedoms)),
+          prepared_(prepare(options.steps)),
           around_(operators_),
           spread_(operators_),
           sweeps_(operators_, around_, freedoms_),
@@ -58,7 +60,7 @@ class Evening {
 
     /// Shortened until the energy falls and nothing folds; may stay where it is.
     void gauss_newton(Eigen::VectorXcd& f, double damping) {
-        if (!system_) system_.emplace(operators_, freedoms_, kExpectedFactorizations);
+        if (!system_) system_ = prepared_.get();
         system_->set_zero();
         const int samples = operators_.sample_count();
         elements_.resize(static_cast<std::size_t>(std::min(samples, kSamplesAtOnce)));
@@ -70,7 +72,7 @@ class Evening {
                     for (int s = first; s < last; ++s)
                         elements_[s - begin] = spread_.element(s, 0, DilatationSpread::Derivative::size_held, damping);
                 },
-                kSamplesAtOnce / 16);
+                kSamplesAtOnce / 8);
             for (int s = begin; s < end; ++s)
                 system_->add(s, elements_[s - begin].gradient.data(), elements_[s - begin].hessian.data());
         }
@@ -95,13 +97,22 @@ class Evening {
     }
 
   private:
+    /// The system is ordered and analysed beside the sweeps.
+    std::future<std::unique_ptr<CoupledSystem>> prepare(int steps) const {
+        const bool beside = steps > 0 && thread_count() > 1;
+        return std::async(beside ? std::launch::async : std::launch::deferred, [this] {
+            return std::make_unique<CoupledSystem>(operators_, freedoms_, kExpectedFactorizations);
+        });
+    }
+
     const Operators& operators_;
     std::vector<Freedom> freedoms_;
+    std::future<std::unique_ptr<CoupledSystem>> prepared_;
     VertexSamples around_;
     DilatationSpread spread_;
     DilatationSweeps sweeps_;
     DilatationPatches patches_;
-    std::optional<CoupledSystem> system_;  // from the first step on
+    std::unique_ptr<CoupledSystem> system_;  // from the first step on
     std::vector<DilatationSpread::Element> elements_;
 };
 

@@ -53,7 +53,7 @@ Distortion distortion(const Operators& source, const MapDerivatives& map) {
         image_area[f] += source.weights[s] * std::abs(std::norm(map.dz[s]) - std::norm(map.dzbar[s]));
         face_area[f] += source.weights[s];
         d.face_mu[f] += source.weights[s] * d.mu[s];
-        d.face_abs_mu[f] = std::fmax(d.face_abs_mu[f], std::abs(d.mu[s]));  // fmax: NaN gives way
+        d.face_abs_mu[f] = std::fmax(d.face_abs_mu[f], std::sqrt(std::norm(d.mu[s])));  // fmax: NaN gives way
     }
     for (int f = 0; f < source.face_count; ++f) {
         d.face_mu[f] /= face_area[f];
@@ -84,10 +84,42 @@ double k_of(double K) {
     return (K - 1) / (K + 1);
 }
 
+namespace {
+
+/// The least value at which values in ascending order reach a weight: what lies on one side of it is never sorted.
+/// @param order values with their indices, put into another order
+double value_at_weight(std::vector<std::pair<double, int>>& order, const std::vector<double>& weights, double wanted) {
+    constexpr std::ptrdiff_t kSorted = 1024;
+    auto first = order.begin(), last = order.end();
+    double below = 0;
+    while (last - first > kSorted) {
+        const auto middle = first + (last - first) / 2;
+        std::nth_element(first, middle, last);
+        double sum = below;
+        for (auto i = first; i < middle; ++i) sum += weights[i->second];
+        if (sum >= wanted) {
+            last = middle;
+        } else {
+            first = middle;
+            below = sum;
+        }
+    }
+    std::sort(first, last);
+    for (auto i = first; i < last; ++i) {
+        below += weights[i->second];
+        if (below >= wanted) return i->first;
+    }
+    return (last - 1)->first;
+}
+
+}  // namespace
+
 MuStatistics mu_statistics(const Eigen::VectorXcd& mu, const std::vector<double>& weights) {
     const int n = static_cast<int>(mu.size());
     Eigen::VectorXd size(n);
-    for (int s = 0; s < n; ++s) size[s] = std::abs(mu[s]);
+    parallel_for(0, n, [&](int begin, int end) {
+        for (int s = begin; s < end; ++s) size[s] = std::sqrt(std::norm(mu[s]));
+    });
     double total = 0, sum = 0, largest = kNaN;
     std::vector<std::pair<double, int>> order;
     order.reserve(static_cast<std::size_t>(n));
@@ -102,16 +134,7 @@ MuStatistics mu_statistics(const Eigen::VectorXcd& mu, const std::vector<double>
     const double mean = sum / total;
     double variance = 0;
     for (const auto& [at, s] : order) variance += weights[s] * (at - mean) * (at - mean);
-    std::sort(order.begin(), order.end());
-    double below = 0, p99 = order.back().first;
-    for (const auto& [at, s] : order) {
-        below += weights[s];
-        if (below >= 0.99 * total) {
-            p99 = at;
-            break;
-        }
-    }
-    return {mean, std::sqrt(variance / total), p99, largest};
+    return {mean, std::sqrt(variance / total), value_at_weight(order, weights, 0.99 * total), largest};
 }
 
 Distortion distortion(const Operators& source, const Eigen::VectorXcd& map) {

@@ -3,6 +3,7 @@
 #include <string>
 
 #include <beltrami/base/error.h>
+#include <beltrami/base/parallel.h>
 #include <beltrami/mesh/planar.h>
 
 namespace beltrami {
@@ -31,24 +32,33 @@ std::vector<std::vector<double>> lengths_of_loops(const Surface& s) {
     return lengths;
 }
 
+/// The diagnosis beside topology and operators, which do not need it: of both failures the diagnosis's is thrown.
+template <class MakeOperators>
+void examine(Surface& s, MakeOperators&& make_operators) {
+    const auto in_space = s.mesh.positions.cols();
+    if (s.mesh.vertex_count() == 0 || (in_space != 2 && in_space != 3)) s.findings = require_sound(s.mesh);
+    parallel_for_each(2, [&](int part) {
+        if (part == 0) {
+            s.findings = require_sound(s.mesh);
+            return;
+        }
+        s.topology = topology(s.mesh);
+        s.operators = make_operators();
+    });
+}
+
 }  // namespace
 
-Surface::Surface(Mesh m)
-    : mesh(std::move(m)),
-      findings(require_sound(mesh)),
-      topology(beltrami::topology(mesh)),
-      operators(beltrami::operators(mesh)),
-      boundary_edge_lengths(lengths_of_loops(*this)) {
+Surface::Surface(Mesh m) : mesh(std::move(m)) {
+    examine(*this, [this] { return beltrami::operators(mesh); });
+    boundary_edge_lengths = lengths_of_loops(*this);
     if (is_planar(mesh)) coordinate_ = planar_coordinates(mesh);
 }
 
-Surface::Surface(Mesh m, Positions corners)
-    : mesh(std::move(m)),
-      findings(require_sound(mesh)),
-      topology(beltrami::topology(mesh)),
-      metric(std::move(corners)),
-      operators(operators_from_corners(mesh, *metric)),
-      boundary_edge_lengths(lengths_of_loops(*this)) {}
+Surface::Surface(Mesh m, Positions corners) : mesh(std::move(m)), metric(std::move(corners)) {
+    examine(*this, [this] { return operators_from_corners(mesh, *metric); });
+    boundary_edge_lengths = lengths_of_loops(*this);
+}
 
 Surface surface_of(Mesh mesh, std::optional<Positions> metric) {
     return metric ? Surface(std::move(mesh), std::move(*metric)) : Surface(std::move(mesh));

@@ -23,6 +23,8 @@ constexpr double kNearTolerance = 1e-11;
 constexpr int kMostNearSteps = 7;
 /// Unknowns from which on a factorisation takes longer than whoever wants it stopped should wait.
 constexpr int kLarge = 10000;
+/// Samples whose matrices are found before they are added.
+constexpr int kSamplesAtOnce = 8192;
 /// Right-hand sides that are assembled in one pass over the samples.
 constexpr int kOffsetsAtOnce = 6;
 
@@ -32,6 +34,7 @@ struct BeltramiSolver::Implementation {
     const Operators& operators;
     std::vector<Freedom> freedom;
     bool decoupled;
+    int most_entries = 0;            // of an element's lower triangle
     std::vector<int> first_unknown;  // #V, −1 if fixed; a free vertex of the coupled system has this one and the next
     std::vector<int> owner;          // unknown → vertex
     std::shared_ptr<ElementSystem> system;
@@ -60,6 +63,8 @@ struct BeltramiSolver::Implementation {
                 unknowns.push_back(first_unknown[v]);
                 if (!decoupled && freedom[v] == Freedom::free) unknowns.push_back(first_unknown[v] + 1);
             }
+            const int corners = static_cast<int>(unknowns.size()) - offsets.back();
+            most_entries = std::max(most_entries, corners * (corners + 1) / 2);
             offsets.push_back(static_cast<int>(unknowns.size()));
         }
         const int count = static_cast<int>(owner.size());
@@ -99,6 +104,7 @@ struct BeltramiSolver::Implementation {
     void assemble(const Eigen::VectorXd& extra_diagonal) {
         if (left.valid()) left.wait();
         system->clear();
+        if (decoupled) return assemble_decoupled();
         std::array<Complex, kMostUnknowns> d;
         std::array<double, kMostUnknowns*(kMostUnknowns + 1) / 2> lower;
         for (int s = 0; s < operators.sample_count(); ++s) {
@@ -114,6 +120,38 @@ struct BeltramiSolver::Implementation {
         for (int v = 0; v < operators.vertex_count; ++v)
             if (const int u = first_unknown[v]; freedom[v] == Freedom::sliding)
                 system->add_to_diagonal(u, std::max(extra_diagonal[v], -0.3 * system->diagonal(u)));
+    }
+
+    /// Matrices of elements are found beside each other, and then added in turn.
+    void assemble_decoupled() {
+        const int samples = operators.sample_count();
+        std::vector<double> lower(static_cast<std::size_t>(std::min(samples, kSamplesAtOnce)) * most_entries);
+        const auto entries_of = [&](int s, int begin) {
+            return lower.data() + static_cast<std::ptrdiff_t>(s - begin) * most_entries;
+        };
+        for (int begin = 0; begin < samples; begin += kSamplesAtOnce) {
+            const int end = std::min(samples, begin + kSamplesAtOnce);
+            parallel_for(
+                begin, end,
+                [&](int first, int last) {
+                    std::array<Complex, kMostUnknowns> d;
+                    for (int s = first; s < last; ++s) {
+                        const auto gradient = operators.gradient(s);
+                        const double w = weight(s);
+                        double* entry = entries_of(s, begin);
+                        for (std::size_t i = 0; i < gradient.size(); ++i) {
+                            d[i] = 0.5 * (gradient[i] - nu[s] * std::conj(gradient[i]));
+                            for (std::size_t j = 0; j <= i; ++j, ++entry)
+                                *entry = w * (d[i].real() * d[j].real() + d[i].imag() * d[j].imag());
+                        }
+                    }
+                },
+                kSamplesAtOnce / 8);
+            for (int s = begin; s < end; ++s) {
+                const std::size_t corners = operators.stencil(s).size();
+                system->add(s, {entries_of(s, begin), corners * (corners + 1) / 2});
+            }
+        }
     }
 
     /// The part of a map that is not solved for: fixed and sliding vertices, 0 at free ones.

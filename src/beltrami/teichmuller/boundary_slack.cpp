@@ -8,6 +8,7 @@
 
 #include <beltrami/base/constants.h>
 #include <beltrami/base/error.h>
+#include <beltrami/base/parallel.h>
 #include <beltrami/linear/element_system.h>
 #include <beltrami/plane/circle_fit.h>
 #include <beltrami/plane/increasing.h>
@@ -19,9 +20,9 @@ namespace {
 
 /// Edges farther apart are not coupled in the steps; and the energy of loops with more edges is that of these pairs.
 constexpr int kBand = 16, kMostFullEdges = 1000;
-/// Gauss-Newton steps, and the part of an edge below which they end.
+/// Gauss-Newton steps, the part of an edge below which they end, and that from which on they are exact.
 constexpr int kSteps = 8;
-constexpr double kSettled = 1e-3;
+constexpr double kSettled = 1e-3, kNearlySettled = 0.02;
 /// A point moves at most so far towards the next one in a step, as part of the edge between them.
 constexpr double kMostOfEdge = 0.4;
 /// A point that does not move may do so by this part of an edge, for the interior point method.
@@ -29,12 +30,15 @@ constexpr double kHeld = 1e-6;
 /// Where the images turn by more (radians) the target has a corner.
 constexpr double kCorner = 0.35;
 constexpr int kInteriorSteps = 60;
-/// Of the gap, as a part of the largest force by the mean room: points are then exact to far less than kSettled.
-constexpr double kInteriorTolerance = 1e-9;
+/// Of the gap, as a part of the largest force by the mean room: points are then exact to far less than kSettled; and in
+/// steps after which others come.
+constexpr double kInteriorTolerance = 1e-9, kRoughInteriorTolerance = 1e-5;
 /// The matrix is made definite by this part of its mean diagonal: a shift of all points changes no u.
 constexpr double kShift = 1e-10;
 /// So many of the edges may run backwards in the chart, which get at least this part of the mean of those around them.
 constexpr double kMostBackward = 0.05, kOfNeighbours = 0.1;
+/// Edges whose pairs a thread takes at once.
+constexpr int kEdgesAtOnce = 32;
 /// Edges of a block.
 constexpr int kBlock = 4;
 
@@ -73,7 +77,9 @@ Track track_of(const std::vector<Complex>& images) {
 /// its digits where edges are parts of 1e-12 of the circle.
 class PairWeights {
   public:
-    explicit PairWeights(const Eigen::VectorXd& edges) : edges_(edges) {}
+    explicit PairWeights(const Eigen::VectorXd& edges) : edges_(edges), half_sines_(edges.size()) {
+        for (Eigen::Index i = 0; i < edges.size(); ++i) half_sines_[i] = half_sine(edges[i]);
+    }
     int size() const { return static_cast<int>(edges_.size()); }
     /// Of the edge i and the one that comes so many edges after it, for 1, 2, … up to a number of them, in turn.
     template <class Take>
@@ -95,21 +101,27 @@ class PairWeights {
         return edges_[i] * edges_[j] / (4 * sine * sine);
     }
     double apart(int i, int j, double between) const {
-        return std::log1p(half_sine(edges_[i]) * half_sine(edges_[j]) /
+        return std::log1p(half_sines_[i] * half_sines_[j] /
                           (half_sine(between) * half_sine(between + edges_[i] + edges_[j])));
     }
     const Eigen::VectorXd& edges_;
+    Eigen::VectorXd half_sines_;
 };
 
 double energy(const PairWeights& weights, const Eigen::VectorXd& u) {
     const int n = weights.size(), reach = n <= kMostFullEdges ? n / 2 : kBand;
-    double sum = 0;
-    for (int i = 0; i < n; ++i)
-        weights.each(i, reach, [&](int j, double weight) {
-            if (2 * reach == n && j < i && (i + reach) % n == j) return;  // opposite edges once
-            sum += weight * (u[i] - u[j]) * (u[i] - u[j]);
-        });
-    return sum;
+    return parallel_sum<double>(
+        n, 0.0,
+        [&](int first, int last) {
+            double sum = 0;
+            for (int i = first; i < last; ++i)
+                weights.each(i, reach, [&](int j, double weight) {
+                    if (2 * reach == n && j < i && (i + reach) % n == j) return;  // opposite edges once
+                    sum += weight * (u[i] - u[j]) * (u[i] - u[j]);
+                });
+            return sum;
+        },
+        kEdgesAtOnce);
 }
 
 /// The quadratic form Σ w_ij (v_i − v_j)² / 2 over the pairs of edges at most kBand apart, of v = dlog(increment),
@@ -213,11 +225,11 @@ class SlackForm {
 
 /// Minimises ½ xᵀHx + qᵀx between bounds by a primal-dual interior point method.
 Eigen::VectorXd minimum_in_box(SlackForm& hessian, const Eigen::VectorXd& q, const Eigen::VectorXd& low,
-                               const Eigen::VectorXd& high) {
+                               const Eigen::VectorXd& high, double tolerance) {
     Eigen::VectorXd x = 0.5 * (low + high);
     const double force = std::max((hessian.apply(x) + q).cwiseAbs().maxCoeff(), 1e-300);
     Eigen::VectorXd at_low = Eigen::VectorXd::Constant(x.size(), force), at_high = at_low;  // multipliers
-    const double last = kInteriorTolerance * force * (high - low).mean();
+    const double last = tolerance * force * (high - low).mean();
     for (int step = 0; step < kInteriorSteps; ++step) {
         const Eigen::ArrayXd above = x - low, below = high - x;
         const double gap = (above * at_low.array() + below * at_high.array()).mean() / 2;
@@ -332,7 +344,9 @@ SlackBoundary slacken(const Surface& source, const Chart& chart, const BoundaryC
 
     SlackBoundary result{boundary, energy(weights, speeds(increment, rim.angles)), 0, 0};
     SlackForm form(weights);
+    double tolerance = kRoughInteriorTolerance;
     for (int step = 0; step < kSteps; ++step) {
+        if (step == kSteps - 1) tolerance = kInteriorTolerance;
         form.set(increment);
         // By moves from where the points stand, which may be far shorter than the curve is long.
         Eigen::VectorXd from(n), to(n);
@@ -341,11 +355,13 @@ SlackBoundary slacken(const Surface& source, const Chart& chart, const BoundaryC
             from[i] = std::min(std::max(low[i] - t[i], -room), 0.0) - 1e-12 * edge[i];
             to[i] = std::max(std::min(high[i] - t[i], room), 0.0) + 1e-12 * edge[i];
         }
-        const Eigen::VectorXd move = minimum_in_box(form, form.pull(speeds(increment, rim.angles)), from, to);
+        const Eigen::VectorXd move =
+            minimum_in_box(form, form.pull(speeds(increment, rim.angles)), from, to, tolerance);
         const double moved = move.cwiseQuotient(edge).cwiseAbs().maxCoeff();
         t += move;
         increment = rim.increments(t);
-        if (moved < kSettled) break;
+        if (moved < kSettled && tolerance == kInteriorTolerance) break;
+        if (moved < kNearlySettled) tolerance = kInteriorTolerance;
     }
     result.energy_after = energy(weights, speeds(increment, rim.angles));
     if (!(result.energy_after < result.energy_before)) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <beltrami/base/parallel.h>
 #include <beltrami/evening/even_dilatation.h>
 #include <beltrami/teichmuller/hamilton.h>
 #include <beltrami/unfold/convex_combination_map.h>
@@ -21,15 +22,19 @@ constexpr double kCloseMerit = 0.01;
 /// √ of the mean of |μ − k conj(φ)/|φ||², |μ| held at 1: how far a map is from the coefficient that the theory
 /// promises.
 double deviation(const Operators& operators, const Eigen::VectorXcd& mu, const Eigen::VectorXcd& phi, double k) {
-    double sum = 0, area = 0;
-    for (int s = 0; s < operators.sample_count(); ++s) {
-        const double size = std::abs(phi[s]);
-        if (!(size > 0) || !std::isfinite(std::abs(mu[s]))) continue;
-        const Complex m = std::abs(mu[s]) > 1 ? mu[s] / std::abs(mu[s]) : mu[s];
-        sum += operators.weights[s] * std::norm(m - k * std::conj(phi[s]) / size);
-        area += operators.weights[s];
-    }
-    return area > 0 ? std::sqrt(sum / area) : 0.0;
+    const Eigen::Array2d sums =
+        parallel_sum<Eigen::Array2d>(operators.sample_count(), Eigen::Array2d::Zero(), [&](int begin, int end) {
+            double sum = 0, area = 0;
+            for (int s = begin; s < end; ++s) {
+                const double size = std::sqrt(std::norm(phi[s])), of_mu = std::sqrt(std::norm(mu[s]));
+                if (!(size > 0) || !std::isfinite(of_mu)) continue;
+                const Complex m = of_mu > 1 ? mu[s] / of_mu : mu[s];
+                sum += operators.weights[s] * std::norm(m - k * std::conj(phi[s]) / size);
+                area += operators.weights[s];
+            }
+            return Eigen::Array2d(sum, area);
+        });
+    return sums[1] > 0 ? std::sqrt(sums[0] / sums[1]) : 0.0;
 }
 
 }  // namespace

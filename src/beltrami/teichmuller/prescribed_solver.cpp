@@ -143,6 +143,7 @@ ExtremalSolver::Update PrescribedSolver::update(const std::vector<Complex>& imag
     how.max_iterations = max_iterations;
     how.grow_first = how.grow_last = false;
     history_.clear();
+    state_.acceleration.reset();
     iterate(how);
     const Eigen::VectorXcd mu = beltrami_coefficient(source_.operators, found_.map);
     return {found_.map, found_.step.k, history_.back().change, folded_samples(mu), converged_};
@@ -339,12 +340,13 @@ void PrescribedSolver::record_homotopy(ExtremalMap& result) const {
 }
 
 void PrescribedSolver::record_bounds(ExtremalMap& result) const {
+    std::optional<Distortion> in_chart;
     if (const ChartMetric* metric = problem_.chart_metric()) {
-        const Distortion in_chart = distortion(metric->plane().operators, found_.map);
+        in_chart = distortion(metric->plane().operators, found_.map);
         result.in_chart =
-            InChart{metric->chart_mean(), in_chart.mean, in_chart.standard_deviation, problem_.largest_degree()};
+            InChart{metric->chart_mean(), in_chart->mean, in_chart->standard_deviation, problem_.largest_degree()};
     }
-    const SolutionBounds bounds = best_bounds();
+    const SolutionBounds bounds = best_bounds(in_chart ? *in_chart : result.distortion);
     result.bounds = bounds.bounds;
     if (problem_.chart_metric() || poles_.products()) record_quadrilaterals(result);
     result.K = std::min(bounds.K, result.distortion.K_max());
@@ -361,10 +363,11 @@ void PrescribedSolver::record_quadrilaterals(ExtremalMap& result) const {
     if (K > 1) result.bounds.push_back({Bound::Kind::moduli, K, Bound::Of::extremal, false});
 }
 
-SolutionBounds PrescribedSolver::best_bounds() const {
+/// @param of_found in the metric of the iteration
+SolutionBounds PrescribedSolver::best_bounds(const Distortion& of_found) const {
     const Surface& domain = problem_.domain();
     const MeasuredMap best = better_for_bounds(found_, before_evening_, [&](const FoundMap& found) {
-        MeasuredMap measured{found, distortion(domain.operators, found.map), {}};
+        MeasuredMap measured{found, &found == &found_ ? of_found : distortion(domain.operators, found.map), {}};
         measured.integrals =
             reich_strebel(domain, problem_.chart(), *state_.space, found.step.direction, measured.distortion.mu);
         return measured;
