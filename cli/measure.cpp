@@ -148,6 +148,8 @@ class Measure final : public Command {
         const ProvedBounds proved = bounds_of_map(Surface(source), map_);
         record.bounds = proved.bounds;
         record.K_lower = record.K_lower_proved = proved.K();
+        for (const Bound& bound : proved.bounds)
+            if (bound.kind == Bound::Kind::attained) record.K_max = bound.K;
     }
 
     /// Images of the vertices in the plane, seen from the side from which a planar source is.

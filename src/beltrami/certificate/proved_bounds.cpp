@@ -4,6 +4,7 @@
 #include <limits>
 
 #include <beltrami/base/error.h>
+#include <beltrami/certificate/attained_dilatation.h>
 #include <beltrami/certificate/edge_corner_bound.h>
 #include <beltrami/certificate/modulus.h>
 #include <beltrami/certificate/period_pair.h>
@@ -122,8 +123,10 @@ ProvedBounds bounds_of_map(const Surface& source, const Eigen::VectorXcd& map) {
     options.exact_polygons = true;
     ProvedBounds result = proved_bounds(source, boundary, map, options);
     const Distortion measured = distortion(source.operators, map);
-    if (measured.flipped.empty() && measured.degenerate.empty())
-        result.bounds.push_back({Bound::Kind::attained, measured.max_dilatation(), Bound::Of::extremal, true});
+    if (measured.flipped.empty() && measured.degenerate.empty()) {
+        const AttainedDilatation attained = attained_dilatation(source, map, measured);
+        result.bounds.push_back({Bound::Kind::attained, attained.K, Bound::Of::extremal, attained.rigorous});
+    }
     return result;
 }
 

@@ -38,7 +38,7 @@ struct VerifiedBracket {
 /// of sectors and not on their size, the opposite edges are halved, then a ring is cut off. The lower end is raised by
 /// pairs of piecewise linear functions on these meshes (pair_bound.h).
 ///
-/// With holes the upper end is that of the homotopy class of @p map, the lower one that of all classes.
+/// With holes both ends are those of the homotopy class of @p map, with the given K_lower.
 /// @param map #V a piecewise linear map with the boundary values
 /// @pre all faces are triangles, the whole boundary is prescribed, no vertex is held to a line
 /// @throw Error not_solved

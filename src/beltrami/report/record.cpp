@@ -1,5 +1,6 @@
 #include <beltrami/report/record.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace beltrami {
@@ -41,6 +42,7 @@ MapRecord map_record(const ExtremalMap& result) {
     record.K = result.K;
     if (result.distortion.flipped.empty() || result.K_lower > 1) record.K_lower = result.K_lower;
     record.K_lower_proved = result.K_lower_proved;
+    if (record.K_max && std::isfinite(result.K_max)) record.K_max = std::max(*record.K_max, result.K_max);  // of quads
     for (const Bound& bound : result.bounds)
         if (bound.kind == Bound::Kind::verified || bound.kind == Bound::Kind::moduli_upper) record.K_upper = bound.K;
     record.bounds = result.bounds;
@@ -68,7 +70,8 @@ MapRecord map_record(const LeastMaximumMap& result) {
         record.boundary_residual = result.extremal->boundary_residual;
     }
     if (record.K_max && std::isfinite(*record.K_max))
-        record.bounds.push_back({Bound::Kind::attained, *record.K_max, Bound::Of::extremal, true});
+        record.bounds.push_back({Bound::Kind::attained, *record.K_max, Bound::Of::extremal,
+                                 result.distortion.mu.size() == result.distortion.face_mu.size()});  // triangles
     return record;
 }
 

@@ -44,7 +44,7 @@ struct Certification {
 ///
 /// K* is that of the polyhedral surface, its polygons and the boundary values linear along their edges; for data
 /// sampled from smooth ones it differs from theirs by O(h²), or, where single vertices decide, by O(h). With holes
-/// K_upper is that of the map's homotopy class; K_lower_proved holds for all classes but for its Reich-Strebel bounds.
+/// both are those of the map's homotopy class; "edge_corner" and "moduli" among the bounds hold for all classes.
 /// @throw as extremal_map; Error bad_option for a gap that is not positive
 Certification certify(const Surface& source, const Constraints& constraints, double gap,
                       const ExtremalOptions& options = {}, const CertifyOptions& limits = {});

@@ -73,6 +73,9 @@ Chart uncrowded(const Surface& source, Chart chart, const Eigen::VectorXcd& harm
     for (int s = 0; s < operators.sample_count(); ++s) {
         const auto corners = operators.stencil(s);
         for (const int v : corners) chart.positions[s] += harmonic[v] / static_cast<double>(corners.size());
+        // Means of φ over several faces need one frame: that of the places.
+        const Complex along = operators.derivatives(s, harmonic)[0];
+        if (std::abs(along) > 0) chart.derivatives[s] *= along / std::abs(along);
     }
     return chart;
 }

@@ -10,8 +10,8 @@ namespace beltrami {
 /// @param harmonic #V the harmonic map with the boundary values
 bool values_crowd(const Surface& source, const Chart& chart, const Eigen::VectorXcd& harmonic);
 
-/// What stands for the chart of such a disk in the c-step: area and frames of the surface itself, and for places those
-/// of the harmonic map, where nothing is crowded. Vertices stay where the chart has them.
+/// What stands for the chart of such a disk in the c-step: the area of the surface itself, and for places those of the
+/// harmonic map, where nothing is crowded, in the frame that these have. Vertices stay where the chart has them.
 Chart uncrowded(const Surface& source, Chart chart, const Eigen::VectorXcd& harmonic);
 
 /// Where |μ| is held of maps of such disks, and the fewest clusters of samples that resolve φ there.

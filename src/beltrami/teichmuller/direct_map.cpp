@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <beltrami/certificate/attained_dilatation.h>
 #include <beltrami/teichmuller/record_proofs.h>
 
 namespace beltrami {
@@ -32,12 +33,13 @@ void complete_direct(const Surface& source, const Eigen::VectorXd& u, double lea
     result.differential = differential_of(source, result.phi);
     result.K_lower = result.K_lower_proved = std::max({1.0, least, 1 / most});
     result.K_upper = std::max(most, 1 / least);
-    result.K_max = result.distortion.K_max();
+    const AttainedDilatation attained = attained_dilatation(source, result.map, result.distortion);
+    result.K_max = attained.K;
     result.K = std::sqrt(result.K_lower * result.K_upper);
     result.k = k_of(result.K);
     result.bounds = {{Bound::Kind::moduli, result.K_lower, Bound::Of::extremal, true},
                      {Bound::Kind::moduli_upper, result.K_upper, Bound::Of::extremal, true},
-                     {Bound::Kind::attained, result.K_max, Bound::Of::extremal, true}};
+                     {Bound::Kind::attained, result.K_max, Bound::Of::extremal, attained.rigorous}};
     result.dimension = result.expected_dimension = 1;
     result.space = ExtremalOptions::Space::one_form_squares;
 }

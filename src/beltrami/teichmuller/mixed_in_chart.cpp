@@ -113,7 +113,7 @@ ExtremalMap MixedInChart::solve() {
                               degree_of_rim(source_, chart_)};
     result.distortion = distortion(source_.operators, result.map);
     std::erase_if(result.bounds, [](const Bound& bound) { return bound.kind == Bound::Kind::attained; });
-    record_attained(result);
+    record_attained(source_, result.map, result);
 
     result.phi = metric_.differential_on_surface(result.phi);
     if (result.differential.chart) {

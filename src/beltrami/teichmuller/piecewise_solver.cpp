@@ -1,9 +1,11 @@
 #include <beltrami/teichmuller/piecewise_solver.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <beltrami/base/error.h>
+#include <beltrami/certificate/attained_dilatation.h>
 #include <beltrami/charts/domain_chart.h>
 #include <beltrami/constraints/boundary_feasibility.h>
 #include <beltrami/mesh/boundary_position.h>
@@ -147,10 +149,13 @@ void PiecewiseSolver::merge(std::vector<ExtremalMap>& parts, ExtremalMap& whole)
     whole.corners = find_corners(source_, boundary_);
     whole.history = std::move(parts[decisive].history);
     whole.distortion = distortion(operators, whole.map);
-    whole.K_max = whole.distortion.K_max();
+    const AttainedDilatation attained = attained_dilatation(source_, whole.map, whole.distortion);
+    whole.K_max = attained.K;
     record_residual(boundary_, whole);
     if (!paths_.empty()) whole.homotopy = homotopy_class(source_, paths_, whole.map, outer_loop_);
     merge_bounds(parts, whole);
+    if (std::isfinite(whole.K_max))
+        whole.bounds.push_back({Bound::Kind::attained, whole.K_max, Bound::Of::extremal, attained.rigorous});
     if (whole.termination == Termination::converged && whole.sharpest && corner_decides(*whole.sharpest, whole.K))
         whole.termination = Termination::not_teichmuller;
 }
@@ -192,8 +197,6 @@ void PiecewiseSolver::merge_bounds(const std::vector<ExtremalMap>& parts, Extrem
     for (const Kind kind : {Kind::reich_strebel_estimate, Kind::averaged_estimate, Kind::corner, Kind::edge_corner,
                             Kind::moduli, Kind::pair, Kind::mesh_harmonic})
         if (const Bound* bound = take(kind, false)) whole.bounds.push_back(*bound);
-    if (whole.distortion.flipped.empty())
-        whole.bounds.push_back({Bound::Kind::attained, whole.K_max, Bound::Of::extremal, true});
     for (const ExtremalMap& part : parts) {
         whole.K = std::max(whole.K, part.K);
         whole.K_lower = std::max(whole.K_lower, part.K_lower);

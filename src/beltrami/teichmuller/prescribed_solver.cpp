@@ -314,7 +314,7 @@ ExtremalMap PrescribedSolver::record() const {
     record_corners(result);
     result.bounds.push_back(
         {Bound::Kind::mesh_harmonic, mesh_harmonic_bound(source_.operators, result.harmonic), Bound::Of::mesh, true});
-    record_attained(result);
+    record_attained(source_, result.map, result);
     record_shortcomings(result);
     // Where values crowd, what φ shows is the least of what is known.
     ExtremalOptions how = options_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include <beltrami/certificate/attained_dilatation.h>
 #include <beltrami/differentials/laurent_space.h>
 #include <beltrami/differentials/mixed_space.h>
 
@@ -28,13 +29,15 @@ void record_residual(const BoundaryCondition& boundary, ExtremalMap& result) {
             std::max(result.boundary_residual, std::abs(result.map[boundary.vertices[i]] - boundary.images[i]));
 }
 
-void record_attained(ExtremalMap& result) {
-    result.K_max = result.distortion.K_max();
+void record_attained(const Surface& source, const Eigen::VectorXcd& map, ExtremalMap& result) {
+    const AttainedDilatation attained = attained_dilatation(source, map, result.distortion);
+    result.K_max = attained.K;
     if (std::isfinite(result.K_max))
-        result.bounds.push_back({Bound::Kind::attained, result.K_max, Bound::Of::extremal, true});
+        result.bounds.push_back({Bound::Kind::attained, result.K_max, Bound::Of::extremal, attained.rigorous});
 }
 
-void record_sliding_bounds(const ReichStrebel& integrals, double k, ExtremalMap& result) {
+void record_sliding_bounds(const Surface& source, const Eigen::VectorXcd& map, const ReichStrebel& integrals, double k,
+                           ExtremalMap& result) {
     result.K = std::min(integrals.valid ? integrals.estimate : dilatation(k), result.distortion.K_max());
     result.k = k_of(result.K);
     if (integrals.valid) {
@@ -46,7 +49,7 @@ void record_sliding_bounds(const ReichStrebel& integrals, double k, ExtremalMap&
         result.bounds.push_back({Bound::Kind::reich_strebel_estimate, result.K, Bound::Of::extremal, false});
         result.bounds.push_back({Bound::Kind::reich_strebel_upper, result.K_upper, Bound::Of::extremal, false});
     }
-    record_attained(result);
+    record_attained(source, map, result);
 }
 
 void record_space(const DifferentialSpace& space, std::optional<int> expected_dimension, ExtremalMap& result) {

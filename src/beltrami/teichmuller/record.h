@@ -9,12 +9,13 @@ namespace beltrami {
 /// Raises the residual of the result's map to the largest distance of one of these vertices from its image.
 void record_residual(const BoundaryCondition& boundary, ExtremalMap& result);
 
-/// K_max and the bound that the map itself is, of its distortion.
-void record_attained(ExtremalMap& result);
+/// K_max and the bound that a map itself is, of which the result has the distortion (attained_dilatation.h).
+void record_attained(const Surface& source, const Eigen::VectorXcd& map, ExtremalMap& result);
 
 /// K, k and the bounds of a map some of whose boundary slides.
 /// @param k of its last c-step
-void record_sliding_bounds(const ReichStrebel& integrals, double k, ExtremalMap& result);
+void record_sliding_bounds(const Surface& source, const Eigen::VectorXcd& map, const ReichStrebel& integrals, double k,
+                           ExtremalMap& result);
 
 /// Of the space of differentials at the end what the result says where boundaries slide.
 /// @param expected_dimension where theory says it

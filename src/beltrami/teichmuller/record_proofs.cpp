@@ -35,7 +35,10 @@ void raise_to_proofs(ExtremalMap& result) {
     result.K = least;
     result.k = k_of(result.K);
     // What the map attains is then as good as what is proved, whatever φ shows.
-    const bool attained = result.K_max > 0 && result.K_max <= (1 + kErrorOfEstimate) * result.K_lower_proved;
+    const bool attained = std::any_of(result.bounds.begin(), result.bounds.end(), [&](const Bound& bound) {
+        return bound.kind == Bound::Kind::attained && bound.rigorous &&
+               bound.K <= (1 + kErrorOfEstimate) * result.K_lower_proved;
+    });
     if (attained || !(found < (1 - kErrorOfEstimate) * result.K)) return;
     if (result.termination == Termination::converged) result.termination = Termination::below_bound;
     result.noise.reset();  // an estimate by the same differentials

@@ -273,7 +273,7 @@ void SlidingSolver::record_bounds(const FoundMap& found, const std::optional<Fou
         measured.integrals = reich_strebel(source(), differential(of), measured.distortion.mu);
         return measured;
     });
-    record_sliding_bounds(best.integrals, best.found.step.k, result);
+    record_sliding_bounds(source(), found.map, best.integrals, best.found.step.k, result);
     raise_to_proofs(result);
 }
 

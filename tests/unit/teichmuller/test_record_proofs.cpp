@@ -86,6 +86,22 @@ TEST(Proofs, ATriangleIsAffine) {
     EXPECT_TRUE(result.warnings.empty());
 }
 
+TEST(Proofs, AQuadAttainsWhatItsCornersDo) {
+    Mesh mesh;
+    mesh.positions = Positions(4, 2);
+    mesh.positions << 0, 0, 1, 0, 1, 1, 0, 1;
+    mesh.faces.add({0, 1, 2, 3});
+    const Surface surface(mesh);
+    BoundaryCondition boundary;
+    const Complex corners[] = {{0, 0}, {1, 0}, {1, 0.001}, {0, 1}};
+    for (int v = 0; v < 4; ++v) boundary.pin(v, corners[v]);
+    const ExtremalMap result = extremal_map(surface, boundary);
+    expect_ordered(result);
+    EXPECT_GT(result.K_lower_proved, 20);
+    EXPECT_GT(result.K_max, 990);  // at its Gauss points: 7.7
+    EXPECT_EQ(result.termination, Termination::below_bound);
+}
+
 TEST(Proofs, SmoothProblemsKeepTheirEstimates) {
     const Surface surface(disk(12));
     const ExtremalMap result = extremal_map(surface, test::boundary_values(surface, test::exact_composition));
