@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/certificate/refined_problem.h>
 
 namespace beltrami {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// The bound of K may be above what is attained by this part.
 constexpr double kClose = 1e-3;
 /// How often a quad is divided into four for that.
