@@ -81,17 +81,17 @@ TEST(Corners, TheGearIsMappedLikeTheDisk) {
     }
 }
 
-struct Shape {
+struct Outline {
     const char* name;
     bench::Problem (*make)(double);
     double coarse, fine, gap;
 };
 
-std::ostream& operator<<(std::ostream& out, const Shape& shape) {
+std::ostream& operator<<(std::ostream& out, const Outline& shape) {
     return out << shape.name;
 }
 
-class Shapes : public testing::TestWithParam<Shape> {};
+class Shapes : public testing::TestWithParam<Outline> {};
 
 // No closed forms: the bracket of the fine mesh lies in that of the coarse one, up to what the coarse polygon is off.
 TEST_P(Shapes, AreOneToOneWithABracketThatShrinks) {
@@ -111,14 +111,14 @@ TEST_P(Shapes, AreOneToOneWithABracketThatShrinks) {
     EXPECT_LE(fine.result.K_lower, coarse.result.K_max);
 }
 INSTANTIATE_TEST_SUITE_P(Corners, Shapes,
-                         testing::Values(Shape{"arrow_head_45", bench::arrow_head_45, 0.033, 0.0167, 0.006},
-                                         Shape{"arrow_head_65", bench::arrow_head_65, 0.033, 0.0167, 0.015},
-                                         Shape{"l_to_square", bench::l_to_square, 0.025, 0.0167, 0.006},
-                                         Shape{"wedge", bench::wedge, 0.033, 0.0167, 0.006}),
+                         testing::Values(Outline{"arrow_head_45", bench::arrow_head_45, 0.033, 0.0167, 0.006},
+                                         Outline{"arrow_head_65", bench::arrow_head_65, 0.033, 0.0167, 0.015},
+                                         Outline{"l_to_square", bench::l_to_square, 0.025, 0.0167, 0.006},
+                                         Outline{"wedge", bench::wedge, 0.033, 0.0167, 0.006}),
                          [](const auto& parameter) { return parameter.param.name; });
 
 // Boundary values whose speed jumps at corners, notches, teeth: one-to-one, a bracket, and a cause where it is wide.
-class JaggedShapes : public testing::TestWithParam<Shape> {};
+class JaggedShapes : public testing::TestWithParam<Outline> {};
 
 TEST_P(JaggedShapes, AreOneToOneOrSayWhyNotExtremal) {
     const Solved solved = solve(GetParam().make(GetParam().coarse));
@@ -129,8 +129,8 @@ TEST_P(JaggedShapes, AreOneToOneOrSayWhyNotExtremal) {
     }
 }
 INSTANTIATE_TEST_SUITE_P(Corners, JaggedShapes,
-                         testing::Values(Shape{"notched_disk", bench::notched_disk, 0.05, 0, 0.02},
-                                         Shape{"disk_to_gear", bench::disk_to_gear, 0.05, 0, 0.02}),
+                         testing::Values(Outline{"notched_disk", bench::notched_disk, 0.05, 0, 0.02},
+                                         Outline{"disk_to_gear", bench::disk_to_gear, 0.05, 0, 0.02}),
                          [](const auto& parameter) { return parameter.param.name; });
 
 }  // namespace

@@ -26,7 +26,7 @@ ExtremalMap solve(const MixedProblemCase& problem) {
 }
 
 /// No folds, a settled iteration, the conditions obeyed, bounds in order and within one per cent.
-void expect_sound(const ExtremalMap& result) {
+void expect_exact(const ExtremalMap& result) {
     EXPECT_EQ(result.termination, Termination::converged);
     EXPECT_TRUE(result.one_to_one()) << result.distortion.flipped.size() << " flipped";
     EXPECT_EQ(result.boundary_residual, 0.0);
@@ -47,7 +47,7 @@ void expect_order(MixedProblemCase (*make)(double, bool), double h, double k_err
     for (const double edge : {h, h / 2}) {
         const MixedProblemCase problem = make(edge, false);
         const ExtremalMap result = solve(problem);
-        expect_sound(result);
+        expect_exact(result);
         EXPECT_LT(std::abs(result.k - *problem.exact_k), k_error * edge * edge / (h * h));
         const double error = vertex_error(problem, result);
         if (last > 0) {
@@ -72,8 +72,8 @@ TEST(Mixed, SlidingHalfCircleIsTheExactMap) {
 
 /// A map and its inverse have one k.
 void expect_one_k(const ExtremalMap& there, const ExtremalMap& back) {
-    expect_sound(there);
-    expect_sound(back);
+    expect_exact(there);
+    expect_exact(back);
     EXPECT_NEAR(there.k, back.k, 5e-4);
 }
 
@@ -148,7 +148,7 @@ TEST(Mixed, DoesNotChangeUnderSimilarities) {
     for (Complex& image : moved.conditions.prescribed.images) image = c * image + d;
     moved.conditions.curves = {TargetCurve::circle(d, std::abs(c))};
     const ExtremalMap result = solve(moved);
-    expect_sound(result);
+    expect_exact(result);
     EXPECT_NEAR(result.k, plain.k, 1e-6);
     EXPECT_LT((result.map - (c * plain.map.array() + d).matrix()).cwiseAbs().maxCoeff(), 1e-4 * std::abs(c));
 }
@@ -159,7 +159,7 @@ TEST(Mixed, IsTheSlidingProblemWhereAllSlides) {
     MixedConditions conditions;
     conditions.curves = {TargetCurve::circle(0, 1), TargetCurve::circle(0, 0.3)};
     const ExtremalMap mixed = mixed_extremal_map(source, conditions);
-    expect_sound(mixed);
+    expect_exact(mixed);
     ExtremalOptions options;
     options.space = ExtremalOptions::Space::laurent;
     const ExtremalMap onto =
@@ -179,7 +179,7 @@ TEST(Mixed, IsThePrescribedProblemWhereAllIsPrescribed) {
         conditions.prescribed.pin(v, std::exp(0.6 * (g + 0.5 * std::conj(g))));
     }
     const ExtremalMap mixed = mixed_extremal_map(source, conditions);
-    expect_sound(mixed);
+    expect_exact(mixed);
     ExtremalOptions options;
     options.evening = ExtremalOptions::Evening::never;
     options.sharpen = -1;
@@ -196,7 +196,7 @@ TEST(Mixed, GivenStartsHaveTheSameEnd) {
     ExtremalOptions options;
     options.start = plain.map;
     const ExtremalMap again = mixed_extremal_map(source, problem.conditions, options);
-    expect_sound(again);
+    expect_exact(again);
     EXPECT_EQ(again.start_flips, 0);
     EXPECT_NEAR(again.k, plain.k, 1e-6);
     // The source's own plane, turned, with a crease along which it is folded over.

@@ -72,12 +72,13 @@ double bound_of(const Bilinear& p, const Bilinear& q, int depth) {
 }
 
 /// The vectors from a corner of a quad to the next and the last one.
-struct Sides {
+struct CornerSides {
     Eigen::RowVectorXd here_to_next, here_to_last;
     Complex next, last;  ///< of the image
 };
 
-Sides sides_at(const Positions& corners, const FaceList& faces, const Eigen::VectorXcd& map, int face, int corner) {
+CornerSides sides_at(const Positions& corners, const FaceList& faces, const Eigen::VectorXcd& map, int face,
+                     int corner) {
     const int first = faces.first_corner(face), here = first + corner, next = first + (corner + 1) % 4,
               last = first + (corner + 3) % 4;
     const Complex image = map[faces.vertices()[here]];
@@ -86,7 +87,7 @@ Sides sides_at(const Positions& corners, const FaceList& faces, const Eigen::Vec
 }
 
 /// K at a corner of a quad, infinite where it turns over.
-double at_corner(const Sides& sides) {
+double at_corner(const CornerSides& sides) {
     const double E = sides.here_to_next.squaredNorm(), G = sides.here_to_last.squaredNorm(),
                  F = sides.here_to_next.dot(sides.here_to_last), area = std::sqrt(std::max(0.0, E * G - F * F));
     const double energy = std::norm(sides.next) * G + std::norm(sides.last) * E -
