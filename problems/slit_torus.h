@@ -16,7 +16,8 @@ struct SlitTorus {
 
 /// @param cells along both sides, a multiple of 8; inner vertices are moved by up to a fifth of a cell, diagonals are
 ///              at random
-SlitTorus slit_torus(int cells, double stretch, unsigned seed);
+/// @param refinements how often every face is then cut into four: meshes of one family, whose errors are not random
+SlitTorus slit_torus(int cells, double stretch, unsigned seed, int refinements = 0);
 
 /// The vertices of one nearest to where those of another are in the square, boundary vertices to boundary vertices.
 std::vector<int> same_places(const SlitTorus& from, const SlitTorus& to);

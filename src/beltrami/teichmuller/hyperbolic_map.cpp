@@ -14,6 +14,7 @@
 #include <beltrami/differentials/holomorphic_products.h>
 #include <beltrami/differentials/hyperbolic_space.h>
 #include <beltrami/hyperbolic/equivariant_map_step.h>
+#include <beltrami/hyperbolic/fold_opening.h>
 #include <beltrami/hyperbolic/hyperbolic_places.h>
 #include <beltrami/teichmuller/hamilton.h>
 
@@ -207,8 +208,9 @@ HyperbolicMap hyperbolic_map(const HyperbolicShape& source, const HyperbolicShap
     result.iterations = result.start_steps + iteration.iterations();
     result.factorizations = step.factorization_count();
     result.history = iteration.history();
-    result.distortion = distortion(surface.operators, step.derivatives());
     result.equivariant = step.map();
+    if (open_folds(surface, result.equivariant) > 0) step.set_map(result.equivariant);
+    result.distortion = distortion(surface.operators, step.derivatives());
     record_bounds(surface, result);
     weigh_by_phi(surface, result);
 
