@@ -15,6 +15,9 @@ namespace {
 /// δ of the rounded |φ| as part of its mean, per edge length of a sample in a domain of diameter 2: about |φ| at a
 /// fraction of an edge from a simple zero.
 constexpr double kRounding = 0.4;
+/// Of tabulated spaces, of few functions, where Newton's method hardly needs it: on a handle that hardly takes part in
+/// a map |φ| is a thousandth of its mean, and rounded off to more it does not tell its direction there.
+constexpr double kRoundingOfTables = 1e-3;
 /// On the nodes of cells, which do not become denser as samples do, at least this.
 constexpr double kLeastRoundingOnCells = 0.005;
 /// Where curves are, Newton's method needs the Hessian of what it minimises: so many clusters, at least.
@@ -292,7 +295,8 @@ Eigen::VectorXcd CoefficientStep::begin(const Eigen::VectorXcd& start) {
             problem_.rounding = rounding;
             at = solve_dual(problem_, at, cold).coefficients;
         }
-    problem_.rounding = std::max(least_rounding_, kRounding * edge_);
+    const double rounding = sampled_.space().tabulated() ? kRoundingOfTables : kRounding;
+    problem_.rounding = std::max(least_rounding_, rounding * edge_);
     if (on_cells_) problem_.rounding = std::max(problem_.rounding, kLeastRoundingOnCells);
     return at;
 }

@@ -87,5 +87,29 @@ TEST(RegisterTori, ClassesByLoopsPointsAndTwists) {
     EXPECT_EQ(test::cause_of([&] { register_tori(source, target, loops); }), Cause::bad_option);
 }
 
+TEST(RegisterHandles, MuIsKOnTheHandleThatTwistsLeaveAlone) {
+    // There |φ| is a hundredth of its mean and less.
+    const Surface source(double_torus(0.13)), target(double_torus(0.12));
+    const HyperbolicShape from(source), to(target);
+    const std::vector<int> loop = homology_basis(source).loops[0];
+    HandleMarking marking;
+    marking.twists = {{loop, 2}};
+    const HandleRegistration found = register_handles(from, to, marking);
+    ASSERT_TRUE(found.map.one_to_one());
+    double x = 0;
+    for (const int v : loop) x += source.mesh.positions(v, 0) / static_cast<double>(loop.size());
+    double sum = 0, area = 0;
+    for (int f = 0; f < source.mesh.face_count(); ++f) {
+        const double at = source.mesh.point(source.mesh.faces[f][0]).x();
+        if (at * x > 0 || std::abs(at) < 1.2) continue;
+        sum += source.operators.weights[f] * found.map.distortion.face_abs_mu[f];
+        area += source.operators.weights[f];
+    }
+    ASSERT_GT(area, 0.1 * source.operators.area());
+    EXPECT_GT(found.map.k, 0.2);
+    EXPECT_NEAR(sum / area, found.map.k, 0.05 * found.map.k);
+    RecordProperty("far_from_the_loop", std::to_string(sum / area) + " of " + std::to_string(found.map.k));
+}
+
 }  // namespace
 }  // namespace beltrami
