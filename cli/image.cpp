@@ -5,6 +5,7 @@
 #include <beltrami/applications/deformed_picture.h>
 #include <beltrami/base/error.h>
 #include <beltrami/base/parallel.h>
+#include <beltrami/io/extension.h>
 #include <beltrami/mesh/texture_map.h>
 #include <beltrami/operators/distortion.h>
 
@@ -22,7 +23,9 @@ class Image final : public Command {
   public:
     explicit Image(CLI::App& parent) {
         CLI::App* app = parent.add_subcommand("image", "a picture in the plane deformed by a map");
-        app->add_option("MAP", map_, "a mesh in the plane whose texture coordinates are the map, as `map` writes it")
+        app->add_option("MAP", map_,
+                        "a mesh in the plane whose texture coordinates are the map, as `map` writes it; with its "
+                        "--evening never the picture is smoothest")
             ->required();
         app->add_option("PICTURE", picture_,
                         "a PNG, which lies on MAP's mesh: over the box around it, or as --place says")
@@ -51,6 +54,9 @@ class Image final : public Command {
     }
 
     int run() override {
+        if (lower_case_extension(output_) != ".png")
+            throw Error(Cause::bad_option, "-o " + output_ + ": pictures are written as PNG alone",
+                        "name the output with the extension .png");
         check_files({{"MAP", map_}, {"PICTURE", picture_}}, {{"-o", output_}});
         const Surface source(load(map_, record_.warnings));
         add_findings(source.findings, record_.warnings);

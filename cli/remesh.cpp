@@ -141,8 +141,14 @@ class Remesh final : public Command {
         Eigen::VectorXd sizes = Eigen::VectorXd::Ones(input_.mesh.vertex_count());
         const IndexedRows rows =
             read_indexed_rows(sizing_, 1, static_cast<int>(input_.numbers.size()), 1, "a vertex and its factor");
-        for (Eigen::Index i = 0; i < rows.indices.rows(); ++i)
+        for (Eigen::Index i = 0; i < rows.indices.rows(); ++i) {
+            if (!(rows.values(i, 0) > 0))
+                throw Error(Cause::bad_option,
+                            fmt::format("--sizing {}: the factor of vertex {} is {}, which is not positive", sizing_,
+                                        rows.indices(i, 0), rows.values(i, 0)),
+                            "1 leaves edges as long as they are, 2 makes them twice as long");
             sizes[input_.number_of(rows.indices(i, 0), "a vertex with a size")] = rows.values(i, 0);
+        }
         return sizes;
     }
 

@@ -152,7 +152,9 @@ class Uniformize final : public Command {
         const HyperbolicDomain found = hyperbolic_domain(source, metric);
         if (metric.has_boundary()) {
             record_.solve = direct_solve(metric.factorizations, start);
-            short_loops_ = homology_basis(source).loops;
+            const HomologyBasis basis = homology_basis(source);
+            record_.periods = periods_record(basis, {}, {}, input.unit);
+            short_loops_ = basis.loops;
         } else {
             const HarmonicBasis basis = harmonic_basis(source);
             const PeriodMatrix periods = period_matrix(source, basis);

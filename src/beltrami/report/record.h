@@ -140,15 +140,15 @@ struct SphereRecord {
     double unresolved_area = 0;
 };
 
-/// The loops of a closed surface with handles, and its periods.
+/// The loops of a surface with handles, and the periods of a closed one.
 struct PeriodsRecord {
     struct Loop {
         double length;
         std::vector<int> vertices;
     };
     std::vector<Loop> loops;
-    Eigen::MatrixXi basis;     ///< #loops×2g: a_1 … a_g, b_1 … b_g in terms of the loops
-    Eigen::MatrixXcd periods;  ///< g×g
+    Eigen::MatrixXi basis;     ///< empty, or #loops×2g: a_1 … a_g, b_1 … b_g in terms of the loops
+    Eigen::MatrixXcd periods;  ///< empty, or g×g
 };
 
 /// A closed surface of genus 1 on the plane modulo a lattice.

@@ -145,6 +145,7 @@ Json to_object(const PeriodsRecord& periods) {
         for (Eigen::Index j = 0; j < periods.periods.cols(); ++j) row.push_back(pair_of(periods.periods(i, j)));
         matrix.push_back(std::move(row));
     }
+    if (matrix.empty()) return {{"loops", std::move(loops)}};
     return {{"loops", std::move(loops)}, {"basis", to_rows(periods.basis)}, {"matrix", std::move(matrix)}};
 }
 

@@ -78,6 +78,7 @@ std::string lines_of(const PeriodsRecord& periods) {
         text += fmt::format("loop {}: {} edges, length {:.6g}\n", l, periods.loops[l].vertices.size(),
                             periods.loops[l].length);
     const auto genus = static_cast<int>(periods.periods.rows());
+    if (genus == 0) return text;
     for (int c = 0; c < 2 * genus; ++c) {
         text += c < genus ? "a" : "b";
         if (genus > 1) text += std::to_string(c % genus + 1);
