@@ -27,6 +27,7 @@ FLIPPED = (0.85, 0.1, 0.1, 1.0)
 CHECKER = (0.30, 0.45, 0.69), (0.95, 0.93, 0.86)
 PANEL = 2.9  # inches
 WIDTH = 11.6
+LEGEND = 1.2  # beside its panel
 OFFSET = 1e-5  # of checkerboards: edges of the mesh often lie on their lines
 DPI = 110
 TYPES = {"char": "i1", "uchar": "u1", "short": "<i2", "ushort": "<u2", "int": "<i4", "uint": "<u4",
@@ -259,8 +260,6 @@ def draw_histogram(axes, panel, load):
     axes.set_xlabel("|μ|", fontsize=8)
     axes.set_ylabel("% of the area" if panel["weights"] == "area" else "% of the triangles", fontsize=8)
     axes.tick_params(labelsize=7)
-    if any(entry["label"] for entry in panel["series"]):
-        axes.legend(fontsize=7, frameon=False)
 
 
 def draw_curves(axes, panel, load):
@@ -280,11 +279,13 @@ def draw_curves(axes, panel, load):
             axes.xaxis.set_major_locator(ticker.LogLocator(subs=(1, 2, 4, 8)))
             axes.xaxis.set_major_formatter(ticker.FormatStrFormatter("%g"))
             axes.xaxis.set_minor_formatter(ticker.NullFormatter())
-    if any(entry["label"] for entry in panel["series"]):
-        if panel["logarithmic"]:
-            axes.legend(fontsize=7, frameon=False, loc="upper left", bbox_to_anchor=(1.0, 1.0))
-        else:
-            axes.legend(fontsize=7, frameon=False)
+
+
+def legends_of(panels):
+    """Panels that have a legend: of those side by side with the same names in the same colours the last."""
+    names = [[entry["label"] for entry in panel["series"]] if panel["kind"] in ("histogram", "curves") else []
+             for panel in panels]
+    return [i for i, own in enumerate(names) if any(own) and names[i + 1:i + 2] != [own]]
 
 
 def rasterise(screen, depth, triangles, pixels):
@@ -457,18 +458,24 @@ def main():
             continue
         # One row; each panel as wide as its content asks, all of one height.
         shapes = [shape(panel, load) for panel in panels]
-        height = min(PANEL, WIDTH / sum(shapes))
+        legends = legends_of(panels)
+        beside = LEGEND * len(legends)
+        height = min(PANEL, (WIDTH - beside) / sum(shapes))
         maps = [i for i, panel in enumerate(panels) if panel["kind"] == "map"]
         # The bar of colours has a column of its own after the last map.
         bar = maps[-1] + 1 if maps else None
         ratios = shapes if bar is None else shapes[:bar] + [0.05] + shapes[bar:]
         signed = any(panel.get("colour") == "signed" for panel in panels)  # high, with surfaces alone
-        figure, grid = plt.subplots(1, len(ratios), figsize=(height * sum(ratios) + 0.5, height + (0.5 if signed else 0.3)), squeeze=False,
+        figure, grid = plt.subplots(1, len(ratios), figsize=(height * sum(ratios) + 0.5 + beside, height + (0.5 if signed else 0.3)), squeeze=False,
                                     layout="constrained", width_ratios=ratios)
         scale = None
-        for axes, panel in zip([a for i, a in enumerate(grid.flat) if i != bar], panels):
+        places = [a for i, a in enumerate(grid.flat) if i != bar]
+        for axes, panel in zip(places, panels):
             scale = draw[panel["kind"]](axes, panel, load) or scale
             axes.set_title(panel["title"], fontsize=8)
+        for i in legends:
+            places[i].legend(fontsize=7, frameon=False, loc="upper left", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.2,
+                             handlelength=1.5)
         if scale:
             colours = matplotlib.cm.ScalarMappable(matplotlib.colors.Normalize(*scale), "viridis")
             figure.colorbar(colours, cax=grid.flat[bar]).ax.tick_params(labelsize=7)
