@@ -23,8 +23,8 @@ std::vector<DiskIsometry> develop(const HyperbolicSurface& surface) {
     const int own = 3 * surface.own_triangles();
     std::vector<DiskIsometry> frames(surface.steps.size());
     std::vector<char> placed(static_cast<std::size_t>(triangulation.triangle_count()), 0);
-    using Entry = std::tuple<double, int>;  // distance of the middle beyond a half-edge from 0
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    using Waiting = std::tuple<double, int>;  // distance of the middle beyond a half-edge from 0
+    std::priority_queue<Waiting, std::vector<Waiting>, std::greater<>> queue;
     const auto beyond = [&](int h) {  // the frame of the apex of the neighbour
         const int g = triangulation.twin(h);
         return (frames[h] * surface.step(next_halfedge(g))).normalized();
