@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <future>
-#include <iterator>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,9 +27,21 @@ struct Stage {
     double damping;  ///< of the step; 0: none
 };
 /// The damping falls as φ and k settle; the penalty on outliers rises. Sweeps even out what is short, Gauss-Newton
-/// steps what is long: with two sweeps before the first two, three steps do as well as four with one each.
-constexpr Stage kStages[] = {{2, 30, false, 0.02}, {2, 100, true, 0.003}, {1, 200, false, 0.002}};
-constexpr int kStageCount = static_cast<int>(std::size(kStages));
+/// steps what is long: with two sweeps before the first two, three steps do as well as four with one each. Two steps
+/// with six sweeps each leave a scan with a spread of |μ| of .00824 in place of .00822, smooth data with .0056 in place
+/// of .0055.
+constexpr Stage kOneStage[] = {{1, 200, false, 0.002}};
+constexpr Stage kTwoStages[] = {{6, 30, true, 0.01}, {6, 200, false, 0.001}};
+constexpr Stage kThreeStages[] = {{2, 30, false, 0.02}, {2, 100, true, 0.003}, {1, 200, false, 0.002}};
+constexpr int kMostSteps = 3;
+
+std::span<const Stage> stages_of(int steps) {
+    if (steps == 1) return kOneStage;
+    if (steps == 2) return kTwoStages;
+    if (steps == kMostSteps) return kThreeStages;
+    return {};
+}
+
 constexpr Stage kLastStage{3, 400, false, 0};
 /// Samples whose derivatives are found before they are added up.
 constexpr int kSamplesAtOnce = 1024;
@@ -133,7 +145,7 @@ void EvenDilatationOptions::validate() const {
     const auto demand = [](bool holds, const char* sentence) {
         if (!holds) throw Error(Cause::bad_option, sentence);
     };
-    demand(steps >= 0 && steps <= kStageCount, "steps must be 0 to 3");
+    demand(steps >= 0 && steps <= kMostSteps, "steps must be 0 to 3");
     demand(anchor >= 0 && std::isfinite(anchor), "anchor must not be negative");
     demand(outlier > 0, "outlier must be positive");
     demand(most_patch_vertices >= 0, "most_patch_vertices must not be negative");
@@ -181,8 +193,8 @@ EvenDilatation even_dilatation(const Surface& source, const std::vector<Freedom>
         report();
         return most <= (1 + kSettled) * least;
     };
-    for (int i = kStageCount - options.steps; i < kStageCount; ++i)
-        if (run(kStages[i])) break;
+    for (const Stage& of_step : stages_of(options.steps))
+        if (run(of_step)) break;
     run(kLastStage);
     for (const int rings : kRings) {
         const int steps = evening.patches().run(spread, f, rings);

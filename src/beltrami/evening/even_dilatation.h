@@ -9,7 +9,7 @@
 namespace beltrami BELTRAMI_PUBLIC {
 
 struct EvenDilatationOptions {
-    int steps = 3;                  ///< Gauss-Newton steps, 0 to 3; with fewer the first ones are left out
+    int steps = 3;                  ///< Gauss-Newton steps, 0 to 3; of two each has more sweeps
     double anchor = 0.07;           ///< λ: how firmly the phase is held where |φ| is large (dilatation_spread.h)
     double outlier = 0.07;          ///< places where | |μ| − k | is above this are repaired one by one
     int most_patch_vertices = 300;  ///< such a place, with its surroundings, is no larger than this

@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <new>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,12 +15,16 @@
 #include <beltrami/linear/backend.h>
 #include <beltrami/linear/dense.h>
 #include <beltrami/linear/linear_backend.h>
+#include <beltrami/linear/multifrontal.h>
 #include <beltrami/linear/supernodal_factor.h>
 #include <beltrami/linear/vector_gram.h>
 
 // NOLINTBEGIN(readability-identifier-naming): the names of BLAS
 extern "C" void dsyrk_(const char* uplo, const char* trans, const int* n, const int* k, const double* alpha,
                        const double* a, const int* lda, const double* beta, double* c, const int* ldc);
+extern "C" void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
+extern "C" void dtrsm_(const char* side, const char* uplo, const char* transa, const char* diag, const int* m,
+                       const int* n, const double* alpha, const double* a, const int* lda, double* b, const int* ldb);
 extern "C" void zherk_(const char* uplo, const char* trans, const int* n, const int* k, const double* alpha,
                        const std::complex<double>* a, const int* lda, const double* beta, std::complex<double>* c,
                        const int* ldc);
@@ -153,6 +158,19 @@ constexpr std::array<double, 3> kMergedZeros{0.8, 0.2, 0.08};
 // METIS orders better than AMD but its own time is only repaid over several factorisations (docs/performance.md).
 constexpr int kMetisPaysFrom = 16;
 
+/// See MultifrontalCholesky. @pre BLAS is locked
+bool dense_part(int rows, int columns, double* panel, double* update) {
+    const double one = 1, minus_one = -1;
+    int info = 0;
+    dpotrf_("L", &columns, panel, &rows, &info);
+    if (info != 0) return false;
+    const int rest = rows - columns;
+    if (rest == 0) return true;
+    dtrsm_("R", "L", "T", "N", &rest, &columns, &one, panel, &rows, panel + columns, &rows);
+    dsyrk_("L", "N", &rest, &columns, &minus_one, panel + columns, &rows, &one, update, &rest);
+    return true;
+}
+
 class CholmodBackend final : public CholeskyBackend {
   public:
     CholmodBackend(const Matrix& lower, int expected_factorizations, int block) {
@@ -174,6 +192,8 @@ class CholmodBackend final : public CholeskyBackend {
             factor_ = cholmod_analyze_p(&view, order.data(), nullptr, 0, &common_);
         }
         if (!factor_) fail("the symbolic analysis of a sparse system failed");
+        if (block > 1 && factor_->is_super)
+            multifrontal_.emplace(supernodal_view(), lower.outerIndexPtr(), lower.innerIndexPtr());
     }
 
     ~CholmodBackend() override {
@@ -190,6 +210,7 @@ class CholmodBackend final : public CholeskyBackend {
         const SerialOpenMp serial;
         const BlasLock lock(factor_->is_super);
         rough_ = Rough::not_made;
+        if (multifrontal_) return factorize_fronts(lower);
         cholmod_sparse view = view_of(lower);
         const int done = cholmod_factorize(&view, factor_, &common_);
         if (!done || common_.status < CHOLMOD_OK) fail("the factorisation of a sparse system failed");
@@ -230,6 +251,15 @@ class CholmodBackend final : public CholeskyBackend {
     }
 
   private:
+    /// Values of the factor that CHOLMOD has analysed; it solves with them as with its own.
+    bool factorize_fronts(const Matrix& lower) {
+        if (factor_->xtype == CHOLMOD_PATTERN && !cholmod_change_factor(CHOLMOD_REAL, 1, 1, 1, 1, factor_, &common_))
+            fail("the factorisation of a sparse system failed");
+        const bool definite = multifrontal_->factorize(lower.valuePtr(), static_cast<double*>(factor_->x), dense_part);
+        factor_->minor = definite ? factor_->n : 0;
+        return definite;
+    }
+
     SupernodalView supernodal_view() const {
         return {static_cast<int>(factor_->n),
                 static_cast<int>(factor_->nsuper),
@@ -303,6 +333,7 @@ class CholmodBackend final : public CholeskyBackend {
     enum class Rough { not_made, ready, impossible };
     Rough rough_ = Rough::not_made;  ///< state of the copy of the present factor
     std::unique_ptr<SupernodalFactor> rough_factor_;
+    std::optional<MultifrontalCholesky> multifrontal_;  ///< for two unknowns a node
 };
 
 }  // namespace

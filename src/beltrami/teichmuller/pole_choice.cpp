@@ -84,11 +84,12 @@ std::vector<BoundaryCorner> PoleChoice::clear_corners() const {
 
 /// Whether the plane of the problem's chart is to be the metric of the iteration: not where the image has corners, at
 /// which φ needs its poles from the start.
-bool PoleChoice::wants_chart_metric() const {
+bool PoleChoice::wants_chart_metric() {
     if (image_corners() > 0 || !problem_.chart_metric_possible()) return false;
     if (options_.slack > 0) return true;
     if (options_.chart_metric) return *options_.chart_metric;
-    return problem_.chart_noise(options_.cluster_count) > kNoise;
+    noise_ = problem_.chart_noise(options_.cluster_count);
+    return noise_ > kNoise;
 }
 
 /// φ of products of one-forms, without a chart.

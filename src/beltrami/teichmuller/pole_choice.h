@@ -34,6 +34,8 @@ class PoleChoice {
     bool needed(double bracket) const { return withheld() && bracket > widest_bracket_; }
     bool smooth() const { return smooth_; }        ///< φ has no singularities
     bool elongated() const { return elongated_; }  ///< see elongation.h
+    /// Noise of the chart of a disk in space, as part of k; 0 where it was not asked for (chart_metric.h).
+    double noise() const { return noise_; }
     /// The space of φ where the boundary values crowd (crowding.h); null elsewhere.
     const std::optional<TabulatedSpace>& products() const { return products_; }
 
@@ -43,7 +45,7 @@ class PoleChoice {
 
     std::ptrdiff_t image_corners() const;
     std::vector<BoundaryCorner> clear_corners() const;
-    bool wants_chart_metric() const;
+    bool wants_chart_metric();
     void take_form_products();
     Singularities take_chart(Chart chart, const Eigen::VectorXcd& at);
     Singularities take_instead(const Eigen::VectorXcd& at);
@@ -56,6 +58,7 @@ class PoleChoice {
     std::optional<Chart> instead_;  // for φ that has singularities
     std::optional<Singularities> withheld_;
     double widest_bracket_ = kPolesNeeded;  // with which φ may do without them
+    double noise_ = 0;
     bool smooth_ = true, elongated_ = false, round_image_ = false;
     std::optional<TabulatedSpace> products_;
 };

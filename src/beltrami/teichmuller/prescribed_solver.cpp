@@ -44,6 +44,10 @@ constexpr int kMostTurns = 4;
 /// 10⁵ triangles: the spread of |μ| is .0121 and .0039 before, .0117 and .0038 after one step, .0116 and .0038 after
 /// three.)
 constexpr int kStepsAtBends = 1;
+/// Gauss-Newton steps on a scan: where the chart's noise is above this part of k (a face has .015, a bump .002). There
+/// the third step costs more than it evens out.
+constexpr int kStepsOnScans = 2;
+constexpr double kNoiseOfScans = 0.005;
 /// Edges between two corners that are taken at their word.
 constexpr int kResolvedEdges = 12;
 
@@ -182,7 +186,7 @@ void PrescribedSolver::run() {
     if (!evened_)
         evened_ = (options_.evening == Evening::always ||
                    (options_.evening == Evening::where_needed && last.uneven(found_, problem_.singular()))) &&
-                  even_out(last);
+                  even_out(last, steps_where_uneven());
     folds_removed_ = options_.remove_folds && last.open_folds(found_, boundary_);
     other_factorizations_ += last.factorizations();
     if (evened_ || folds_removed_) last.follow(found_, kFinishingStep);
@@ -258,8 +262,12 @@ Finish PrescribedSolver::finish() {
 
 /// Gauss-Newton steps that evening out the map is worth.
 int PrescribedSolver::evening_steps(const Finish& finish) const {
-    if (finish.uneven(found_, problem_.singular())) return kEveningSteps;
+    if (finish.uneven(found_, problem_.singular())) return steps_where_uneven();
     return poles_.narrow_bends() ? kStepsAtBends : 0;
+}
+
+int PrescribedSolver::steps_where_uneven() const {
+    return poles_.noise() > kNoiseOfScans ? kStepsOnScans : kEveningSteps;
 }
 
 bool PrescribedSolver::even_out(Finish& finish, int steps) {

@@ -39,7 +39,8 @@ class PrescribedSolver final : public ProblemSolver {
     // Finish.
     Finish finish();
     int evening_steps(const Finish& finish) const;
-    bool even_out(Finish& finish, int steps = kEveningSteps);
+    int steps_where_uneven() const;
+    bool even_out(Finish& finish, int steps);
     void compare_outlines();
     double estimate_with(const BoundaryCondition& other);
 
