@@ -115,6 +115,7 @@ CoarseStart coarse_start(const Surface& source, const BoundaryCondition& boundar
     // start.
     iteration.run(result.state, grown ? std::make_unique<PolynomialSpace>(largest_degree, largest_degree)
                                       : problem.starting_space(largest_degree));
+    if (!answered) result.state.acceleration.reset();  // it has seen too little of the iteration
     if (iteration.converged()) result.bracket_by_triangles = bracket(iteration.last_step()) * model.mesh.face_count();
     return result;
 }
