@@ -159,6 +159,9 @@ class RegisterOpenSurfacesWithHandles(Command):
         self.assertAlmostEqual(metric["area"], 2 * math.pi, delta=1e-8)
         self.assertEqual(len(metric["generators"]), 2)
         self.assertEqual(len(metric["boundary"]), 1)
+        # Loops around the handle, without periods.
+        self.assertEqual(set(record["periods"]), {"loops"})
+        self.assertEqual(len(record["periods"]["loops"]), 2)
         # The commutator of the generators runs around the boundary, a closed geodesic.
         a, b = (np.array(generator["matrix"]) for generator in metric["generators"])
         commutator = a @ b @ np.linalg.inv(a) @ np.linalg.inv(b)

@@ -85,6 +85,9 @@ class Images(Command):
         write_obj(self.path("bent.obj"), bent, self.faces, self.points)
         self.assertIn("plane", self.run_command("image", self.path("bent.obj"), self.path("halves.png"), *out, code=4).stderr)
         self.assertFalse(pathlib.Path(self.path("out.png")).exists())
+        text = self.run_command("image", self.path("map.obj"), self.path("halves.png"), "-o", self.path("out.jpg"), code=2).stderr
+        self.assertIn(".png", text)
+        self.assertFalse(pathlib.Path(self.path("out.jpg")).exists())
 
 
 if __name__ == "__main__":

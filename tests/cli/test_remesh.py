@@ -94,6 +94,13 @@ class Remesh(Command):
                                  self.path("angles.txt"), code=2).stderr
         self.assertIn("face 0", error)
 
+    def test_sizes_are_positive(self):
+        pathlib.Path(self.path("sizes.txt")).write_text("3 2\n5 0\n")
+        error = self.run_command("remesh", self.path("a.obj"), "-o", self.path("b.obj"), "--sizing", self.path("sizes.txt"),
+                                 code=2).stderr
+        self.assertIn("vertex 5", error)
+        self.assertFalse(pathlib.Path(self.path("b.obj")).exists())
+
     def test_least_squares_maps(self):
         plain = self.remesh("--preserve", "normals")
         even = self.remesh("--preserve", "normals", "--uniform")
