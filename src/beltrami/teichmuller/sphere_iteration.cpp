@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <beltrami/certificate/refined_problem.h>
+#include <beltrami/meshing/face_split.h>
 #include <beltrami/sphere/moebius_fit.h>
 #include <beltrami/teichmuller/around_landmarks.h>
 #include <beltrami/teichmuller/soft_landmarks.h>
@@ -110,6 +111,16 @@ void extrapolate(const Surface& source, const Positions& on_sphere, const Sphere
     first.history.insert(first.history.end(), second->history.begin(), second->history.end());
 }
 
+/// The same surface with its quads as two triangles each, which can be made finer around landmarks. Nothing where there
+/// are no quads, they have a metric of their own, or their halves are flipped in one of the two maps.
+std::optional<Surface> quads_in_two(const Surface& source, const Positions& on_sphere, const Positions& start) {
+    if (all_triangles(source.mesh) || source.metric) return {};
+    Surface result(split_into_triangles(source.mesh).mesh);
+    const SphereFaces faces(result);
+    if (!faces.flipped(on_sphere).empty() || !faces.flipped(start).empty()) return {};
+    return result;
+}
+
 /// What a map of a finer mesh leaves on this one is too coarse for it: φ is found anew, and a few steps go towards it.
 void settle_back(const Surface& source, SphereProblem& problem, const SphereLandmarks& landmarks,
                  SphereIteration& result) {
@@ -129,11 +140,14 @@ SphereIteration iterate_on_sphere(const Surface& source, SphereProblem& problem,
                                   const Positions& start, const SphereLandmarks& landmarks,
                                   const ExtremalSphereOptions& options) {
     std::optional<SphereIteration> found;
-    if (all_triangles(source.mesh)) {
-        const bool small = source.mesh.face_count() <= kSmallMesh && !landmarks.soft();
-        found = settle_around(source, {on_sphere, start}, landmarks, options, small ? kAroundOnSmallMesh : kAround);
+    const std::optional<Surface> halves = quads_in_two(source, on_sphere, start);
+    if (halves || all_triangles(source.mesh)) {
+        const Surface& triangles = halves ? *halves : source;
+        const bool small = triangles.mesh.face_count() <= kSmallMesh && !landmarks.soft();
+        found = settle_around(triangles, {on_sphere, start}, landmarks, options, small ? kAroundOnSmallMesh : kAround);
         if (found && small && found->converged && !found->held_up)
-            extrapolate(source, on_sphere, landmarks, options, *found);
+            extrapolate(triangles, on_sphere, landmarks, options, *found);
+        if (found && halves && !SphereFaces(source).flipped(found->points).empty()) found.reset();
     }
     if (!found) return settle(source, problem, on_sphere, start, landmarks, options);
     settle_back(source, problem, landmarks, *found);

@@ -27,10 +27,10 @@ struct SphereIteration {
     std::vector<Iteration> history;
 };
 
-/// Hamilton's iteration from a start without flipped faces, for what k is. Meshes of triangles are finer for it around
-/// the landmarks, where few faces cannot follow μ. The error of k that is left goes with the square of the mesh width;
-/// on small meshes without soft landmarks k is found again with all edges halved, and extrapolated. Points and φ are
-/// those of the mesh itself.
+/// Hamilton's iteration from a start without flipped faces, for what k is. Meshes, of quads the triangles that are
+/// their halves, are finer for it around the landmarks, where few faces cannot follow μ. The error of k that is left
+/// goes with the square of the mesh width; on small meshes without soft landmarks k is found again with all edges
+/// halved, and extrapolated. Points and φ are those of the mesh itself.
 /// @param problem   of the source and the landmarks
 /// @param on_sphere, start #V×3 unit vectors
 /// @throw Error cancelled, not_solved
