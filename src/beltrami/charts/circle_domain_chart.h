@@ -17,7 +17,7 @@ struct CircleDomainOptions {
     double exact_part = 0.1;
     /// Circles that come closer, relative to the radius of the smaller one, are refused.
     double least_gap = 1e-3;
-    HoleRoundingOptions rounding = {.wanted_ratio = 1 + 1e-9, .max_steps = 15, .terms = 30};  ///< of exact charts
+    HoleRoundingOptions rounding{1 + 1e-9, 15, 30};  ///< of exact charts
     /// @throw Error bad_option if a value is impossible
     void validate() const;
 };
