@@ -32,6 +32,8 @@ constexpr int kRoughIterations = 16;
 constexpr double kRoughRounding = 0.005, kRoughStep = 0.05;
 /// In the plane of a chart the iteration ends once it moves by less than this part of the bracket.
 constexpr double kWithinBracket = 0.01;
+/// … and with poles, of which φ tells some apart by single edges only: steps cost most there, and it wanders.
+constexpr double kWithinBracketAtPoles = 0.03;
 /// The bracket of a smooth problem, as part of K, times the number of samples, is smaller (a bump's .7).
 constexpr double kTightPerSample = 4;
 /// From here on coefficients of faces are too noisy for K even there.
@@ -239,7 +241,7 @@ void PrescribedSolver::iterate_once(const HamiltonIteration::Options& how) {
 HamiltonIteration::Options PrescribedSolver::adapted(HamiltonIteration::Options how) const {
     if (poles_.smooth()) adapt_to_smooth(options_, how);
     if (problem_.chart_metric()) {
-        how.within_bracket = kWithinBracket;
+        how.within_bracket = problem_.singular() ? kWithinBracketAtPoles : kWithinBracket;
         how.tight = kTightPerSample / source_.operators.sample_count();
     }
     return how;
