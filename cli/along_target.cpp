@@ -133,6 +133,9 @@ void pin(const AlongTarget::Request& request, Positions& start, TargetConstraint
 /// What the boundary keeps to, beside what is held already.
 void hold_boundary(const Surface& source, std::string how, const Target& target, const Positions& start,
                    TargetConstraints& constraints) {
+    if (!how.empty() && source.topology.boundary_loops.empty())
+        throw Error(Cause::bad_option, "--boundary " + how + " says how the boundary moves, and SOURCE is closed",
+                    "leave it out; --pin holds vertices");
     if (how.empty()) how = target.boundary().empty() ? "free" : "tangential";
     if (how == "tangential") slide_boundary(constraints, source, target, start);
     if (how != "fixed") return;

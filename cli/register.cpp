@@ -40,8 +40,10 @@ class Register final : public Command {
             ->type_name("OUT");
         landmarks_.add_to(*app);
         curves_.add_to(*app);
-        app->add_option("--method", method_,
-                        "extremal: least dilatation; lp: least Lᵖ norm of abs(mu), with curves too")
+        app->add_option(
+               "--method", method_,
+               "extremal: least dilatation, with curves an estimate of it; lp: least Lᵖ norm of abs(mu); default: "
+               "extremal, with --curves lp")
             ->check(CLI::IsMember({"extremal", "lp"}));
         app->add_option("--p", p_, "p of that norm; the larger the more even abs(mu) becomes")
             ->check(CLI::Range(2.0, 64.0))
@@ -141,30 +143,30 @@ class Register final : public Command {
     }
 
   private:
-    bool least_lp() const {
-        if (curves_.given() && method_ == "extremal")
-            throw Error(Cause::bad_option,
-                        "--curves does not go with --method extremal: an extremal map that takes curves to curves has "
-                        "a quadratic differential of the surface cut along them, which is known here of landmarks only",
-                        "give --method lp, or the curve's points as --landmarks");
-        return method_ == "lp" || curves_.given();
-    }
+    /// Curves are held by the flow, whatever is to be least.
+    bool least_lp() const { return method_ == "lp" || curves_.given(); }
 
     void run_least_lp(const Surface& source, const Surface& target, const std::vector<SurfaceLandmark>& landmarks,
                       const std::vector<CurvePair>& curves, const RegistrationOptions& given,
                       const MeshInput& source_input, const MeshInput& target_input) {
         if (!given.waypoints.empty())
-            throw Error(Cause::bad_option, "--waypoints belong to --method extremal",
+            throw Error(Cause::bad_option, "--waypoints belong to --method extremal without --curves",
                         "lead curves instead, or begin with --start-map");
         CurveRegistrationOptions options;
         options.p = p_;
+        options.extremal = method_ == "extremal";
         options.start = given.start;
         options.outer_loop = outer_;
         options.target_outer_loop = target_outer_;
         if (max_iterations_) options.flow.max_iterations = *max_iterations_;
+        Progress progress(!common_.quiet);
+        options.extremal_progress = [&](int iteration, double k) {
+            progress.show(iteration, k);
+            return true;
+        };
         const LpRegistration found = register_least_lp(source, target, landmarks, curves, options);
         append(record_.warnings, found.warnings);
-        record_.map = map_record(found.carried.distortion);
+        record_.map = map_record(found);
         record_.solve = solve_record(found.map, seconds() - begun_);
         record_.registration = registration_record(found, p_, target_, landmarks.size());
         record_.registration->lp->curve_distance *= target_input.unit;
@@ -175,11 +177,9 @@ class Register final : public Command {
 
     OpenRegistration open(const Surface& source, const Surface& target, const std::vector<SurfaceLandmark>& landmarks,
                           const RegistrationOptions& given) const {
-        if (!given.waypoints.empty())
-            throw Error(Cause::bad_option, "--waypoints are for closed surfaces",
-                        "the class of surfaces with a boundary is that of straight ways in their circle domains");
         OpenRegistrationOptions options;
         options.start = given.start;
+        options.waypoints = given.waypoints;
         options.map.progress = given.map.progress;
         if (max_iterations_) options.map.max_iterations = *max_iterations_;
         options.outer_loop = outer_;
@@ -193,21 +193,35 @@ class Register final : public Command {
         append(record_.warnings, found.warnings);
         record_.registration = registration_record(found, target_, landmarks.size());
         if (record_.registration->largest_distance) *record_.registration->largest_distance *= target.unit;
-        RegistrationPage page = page_of(found, found.map.distortion);
+        const Distortion own = own_distortion(found.map, surface);
+        RegistrationPage page = page_of(found, own);
         page.history = found.map.history;
         // Where edges of the source were split φ belongs to another mesh.
         const bool same = found.map.phi.size() == surface.operators.sample_count();
         if (wants_page() && same && !found.map.differential.zero())
             page.map.differential = page_differential(surface, found.map.phi, found.map.differential);
-        conclude_with(found, found.map, std::move(page), source, target);
+        conclude_with(found, found.map, std::move(page), source, target, own);
     }
+
+    /// Of the surface's own faces, where the map is one of a mesh with edges split.
+    static Distortion own_distortion(const ExtremalMap& map, const Surface& surface) {
+        if (!map.split) return map.distortion;
+        return distortion(surface.operators, Eigen::VectorXcd(map.map.head(surface.mesh.vertex_count())));
+    }
+    static const Distortion& own_distortion(const ExtremalSphereMap& map, const Surface&) { return map.distortion; }
 
     template <class Map>
     void conclude_with(const CarriedSurface& carried, const Map& map, RegistrationPage&& page, const MeshInput& source,
                        const MeshInput& target) {
+        conclude_with(carried, map, std::move(page), source, target, map.distortion);
+    }
+
+    template <class Map>
+    void conclude_with(const CarriedSurface& carried, const Map& map, RegistrationPage&& page, const MeshInput& source,
+                       const MeshInput& target, const Distortion& of_faces) {
         record_.map = map_record(map);
         record_.solve = solve_record(map, seconds() - begun_);
-        write(carried, std::move(page), map.distortion, source, target);
+        write(carried, std::move(page), of_faces, source, target);
     }
 
     bool wants_page() const { return !common_.report.empty(); }

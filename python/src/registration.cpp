@@ -50,6 +50,21 @@ std::vector<MeshPoint> start_from(Keywords& keywords, const SurfacePtr& source, 
     return places;
 }
 
+std::vector<SurfaceWaypoint> waypoints_from(Keywords& keywords, const SurfacePtr& target) {
+    std::vector<SurfaceWaypoint> result;
+    const py::object waypoints = keywords.taken("waypoints");
+    if (!waypoints || waypoints.is_none()) return result;
+    for (const py::handle item : waypoints) {
+        if (!py::isinstance<py::sequence>(item) || py::len(item) != 3)
+            throw py::type_error("waypoints are (step, vertex, vertex of the target)");
+        const auto tuple = value_of<std::array<int, 3>>(item, "waypoints are (step, vertex, vertex of the target)");
+        if (tuple[2] < 0 || tuple[2] >= target->vertex_count())
+            throw Error(Cause::bad_option, "the target has no vertex " + std::to_string(tuple[2]));
+        result.push_back({tuple[0], tuple[1], place_of_vertex(target->surface.mesh, tuple[2])});
+    }
+    return result;
+}
+
 RegistrationPtr spheres(const SurfacePtr& source, const SurfacePtr& target, const py::object& vertices,
                         const py::object& places, const py::object& weights, const py::kwargs& given) {
     const std::vector<SurfaceLandmark> landmarks = landmarks_from(target, vertices, places, weights);
@@ -59,15 +74,7 @@ RegistrationPtr spheres(const SurfacePtr& source, const SurfacePtr& target, cons
     keywords.iteration(interruption, options.map);
     keywords.take("check_inverse", options.check_inverse);
     options.start = start_from(keywords, source, target);
-    if (const py::object waypoints = keywords.taken("waypoints"); waypoints && !waypoints.is_none())
-        for (const py::handle item : waypoints) {
-            if (!py::isinstance<py::sequence>(item) || py::len(item) != 3)
-                throw py::type_error("waypoints are (step, vertex, vertex of the target)");
-            const auto tuple = value_of<std::array<int, 3>>(item, "waypoints are (step, vertex, vertex of the target)");
-            if (tuple[2] < 0 || tuple[2] >= target->vertex_count())
-                throw Error(Cause::bad_option, "the target has no vertex " + std::to_string(tuple[2]));
-            options.waypoints.push_back({tuple[0], tuple[1], place_of_vertex(target->surface.mesh, tuple[2])});
-        }
+    options.waypoints = waypoints_from(keywords, target);
     keywords.finish();
     const double begun = seconds();
     return without_lock(interruption, [&] {
@@ -95,6 +102,7 @@ RegistrationPtr open(const SurfacePtr& source, const SurfacePtr& target, const p
     options.target_outer_loop = target_outer_loop;
     Keywords keywords(given);
     keywords.take("check_inverse", options.check_inverse);
+    options.waypoints = waypoints_from(keywords, target);
     take_extremal(keywords, interruption, {source.get(), target.get()}, options.map);
     keywords.finish();
     const double begun = seconds();
@@ -103,7 +111,12 @@ RegistrationPtr open(const SurfacePtr& source, const SurfacePtr& target, const p
         Record record = space_record(source, "register", map_record(found.map), found.warnings);
         record.solve = solve_record(found.map, seconds() - begun);
         record.registration = registration_record(found, "", landmarks.size());
-        auto object = std::make_shared<RegistrationObject>(source, found, found.map.distortion, std::move(record));
+        const Surface& surface = source->surface;
+        const Distortion own =
+            found.map.split  // of the surface's own faces
+                ? distortion(surface.operators, Eigen::VectorXcd(found.map.map.head(surface.mesh.vertex_count())))
+                : found.map.distortion;
+        auto object = std::make_shared<RegistrationObject>(source, found, own, std::move(record));
         object->phi = found.map.phi;
         if (found.map.one_to_one())
             object->correspondence =
@@ -140,6 +153,7 @@ RegistrationPtr least_lp(const SurfacePtr& source, const SurfacePtr& target, con
     CurveRegistrationOptions options;
     options.p = p;
     Keywords keywords(given);
+    keywords.take("extremal", options.extremal);
     keywords.take("outer_loop", options.outer_loop);
     keywords.take("target_outer_loop", options.target_outer_loop);
     if (!source->surface.topology.boundary_loops.empty()) {
@@ -159,7 +173,7 @@ RegistrationPtr least_lp(const SurfacePtr& source, const SurfacePtr& target, con
     const double begun = seconds();
     return without_lock(interruption, [&] {
         LpRegistration found = register_least_lp(source->surface, target->surface, landmarks, pairs, options);
-        Record record = space_record(source, "register", map_record(found.carried.distortion), found.warnings);
+        Record record = space_record(source, "register", map_record(found), found.warnings);
         record.solve = solve_record(found.map, seconds() - begun);
         record.registration = registration_record(found, p, "", landmarks.size());
         auto object = std::make_shared<RegistrationObject>(source, found, found.carried.distortion, std::move(record));
@@ -247,7 +261,9 @@ void bind_registration(py::module_& m) {
           (std::string(
                "The extremal map between two surfaces of genus 0 with equally many boundary loops that takes landmarks "
                "to their places; boundaries slide along each other.\n\nvertices, places and weights as of "
-               "register_spheres. check_inverse=True finds inverse_k.\n\n") +
+               "register_spheres. check_inverse=True finds inverse_k. waypoints=[(step, vertex, vertex of the target), "
+               "…] "
+               "are ways of landmarks inside and choose the homotopy class.\n\n") +
            kExtremalOptions)
               .c_str());
     m.def("register_least_lp", &least_lp, py::arg("source"), py::arg("target"), py::arg("vertices") = py::list(),
@@ -259,6 +275,7 @@ void bind_registration(py::module_& m) {
            " curves: (points of the source, points of the target, closed=False, slides=True) each, points being "
            "vertices or Places that geodesics join. p: from 2; the larger the more even |μ| is.\n\nOptions: "
            "outer_loop=0, target_outer_loop=0, tolerance=1e-8, max_iterations=100, start=None (#V vertices or Places), "
+           "extremal=False (go on from there to the map of least dilatation, with an estimate of k), "
            "progress=None.\n\nRaises BadMesh, BadBoundary, BadOption, NotSolved, Cancelled. Source: Wong & Zhao 2014.")
               .c_str());
 }

@@ -382,6 +382,7 @@ class AlongSurface(Command):
         refused(2, "--onto", "torus:1,2", "--minimize-lp", "2", says="R > r > 0")
         refused(2, "--onto", "torus:2,1", "--minimize-lp", "2", says="--start-map")
         refused(2, *sphere, "--minimize-lp", "2", "--boundary", "tangential", "--scheme", "fast", says="--scheme")
+        refused(2, *sphere, "--minimize-lp", "2", "--boundary", "tangential", says="SOURCE is closed")
         short = write_rows(self.path("short.txt"), np.zeros(5))
         refused(3, *sphere, "--mu", short, says="short.txt")
         large = write_rows(self.path("large.txt"), np.full(len(self.faces), 1.0))

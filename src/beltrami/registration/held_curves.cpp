@@ -131,6 +131,24 @@ Positions in_space(const Positions& points) {
     return result;
 }
 
+/// A map of a surface's vertices as one of all vertices of it with curves, unless it is that already.
+/// @throw Error bad_option where it is neither
+Positions divided(const Positions& start, const Mesh& source, const MeshWithCurves& with_curves) {
+    if (start.rows() == with_curves.mesh.vertex_count()) return start;
+    if (start.rows() != source.vertex_count())
+        throw Error(Cause::bad_option, "the start has " + std::to_string(start.rows()) + " points, the source " +
+                                           std::to_string(source.vertex_count()) + " vertices");
+    Positions result(start.rows() + static_cast<Eigen::Index>(with_curves.places.size()), 3);
+    result.topRows(start.rows()) = start;
+    for (std::size_t i = 0; i < with_curves.places.size(); ++i) {
+        const MeshPoint& place = with_curves.places[i];
+        Eigen::RowVector3d point = Eigen::RowVector3d::Zero();
+        for (int j = 0; j < 3; ++j) point += place.barycentric[j] * start.row(place.vertices[j]);
+        result.row(start.rows() + static_cast<Eigen::Index>(i)) = point;
+    }
+    return result;
+}
+
 /// The angle from one edge of a face to another, seen from the side of its normal.
 double turn(const Mesh& mesh, int face, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
     const Eigen::Vector3d up = face_vector_area(mesh, face).normalized();
@@ -216,9 +234,6 @@ void hold_curves(const MeshWithCurves& source, const PartnerCurves& partners, st
 
 HeldCurves held_curves(const Mesh& source, const Target& target, std::span<const CurveOnto> curves,
                        const Positions& start) {
-    if (start.rows() != source.vertex_count())
-        throw Error(Cause::bad_option, "the start has " + std::to_string(start.rows()) + " points, the source " +
-                                           std::to_string(source.vertex_count()) + " vertices");
     const PartnerCurves partners = partner_curves(target, curves);
     HeldCurves result;
     std::vector<CurveThrough> here;
@@ -232,15 +247,7 @@ HeldCurves held_curves(const Mesh& source, const Target& target, std::span<const
     } catch (const Error& error) {
         throw Error(error.cause(), std::string("the source: ") + error.what(), {}, error.where());
     }
-    const Positions own = in_space(start);
-    result.start.resize(own.rows() + static_cast<Eigen::Index>(result.source.places.size()), 3);
-    result.start.topRows(own.rows()) = own;
-    for (std::size_t i = 0; i < result.source.places.size(); ++i) {
-        const MeshPoint& place = result.source.places[i];
-        Eigen::RowVector3d point = Eigen::RowVector3d::Zero();
-        for (int j = 0; j < 3; ++j) point += place.barycentric[j] * own.row(place.vertices[j]);
-        result.start.row(own.rows() + static_cast<Eigen::Index>(i)) = point;
-    }
+    result.start = divided(in_space(start), source, result.source);
     result.wanted = result.start;
     hold_curves(result.source, partners, slides, target, result.constraints, result.wanted);
     return result;

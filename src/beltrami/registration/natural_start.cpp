@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <beltrami/base/error.h>
+#include <beltrami/charts/chart_places.h>
 #include <beltrami/charts/circle_domain_chart.h>
 #include <beltrami/flow/flow_start.h>
 #include <beltrami/forms/flat_torus.h>
@@ -70,11 +71,11 @@ std::vector<CurvePair> pairs_on(const Mesh& mesh, std::span<const CurveOnto> cur
     return pairs;
 }
 
-/// The map of least L² norm that takes curves to curves, by way of the target's sphere or circle domain; nothing where
-/// it stays folded.
+/// The map of least L² norm that takes curves to curves, by way of the target's sphere or circle domain, of the source
+/// divided along them; nothing where it stays folded.
 std::optional<Positions> cut_along(const Surface& source, const Surface& target, const std::vector<CurvePair>& pairs) {
     try {
-        return register_least_lp(source, target, {}, pairs).positions;
+        return positions_on(target.mesh, register_least_lp(source, target, {}, pairs).divided);
     } catch (const Error& error) {
         if (error.cause() != Cause::not_solved) throw;
         return {};

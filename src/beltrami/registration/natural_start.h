@@ -13,8 +13,9 @@ namespace beltrami BELTRAMI_PUBLIC {
 
 /// Where a flow along a target begins that is given no start.
 struct NaturalStart {
-    Positions positions;  ///< #V×3 or #V×2, near the target
-    std::string name;     ///< identity, conformal, harmonic, lattice, cut along curves, led along curves
+    Positions
+        positions;     ///< #V×3 or #V×2, near the target; with curves perhaps those of the surface divided along them
+    std::string name;  ///< identity, conformal, harmonic, lattice, cut along curves, led along curves
 };
 
 /// What a target is, beside its points.

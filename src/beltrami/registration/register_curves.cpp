@@ -333,6 +333,22 @@ Found search(const Task& task) {
     return std::move(*best);
 }
 
+/// From the least Lᵖ map, which has no flips, to that of least dilatation.
+void go_on_to_extremal(const Found& found, const TargetConstraints& constraints, const Target& target,
+                       const CurveRegistrationOptions& options, LpRegistration& result) {
+    ExtremalFlowOptions how;
+    how.max_iterations = options.flow.max_iterations;
+    how.progress = options.extremal_progress;
+    const Surface with_curves(found.from.source.mesh);
+    result.extremal = extremal_flow(with_curves, target, constraints, result.map.map, how);
+    SurfaceFlowMap& map = result.map;
+    map.map = result.extremal->map;
+    map.distortion = distortion(with_curves.operators, positions_of(map.map.points), normals_of(map.map.points));
+    map.termination = result.extremal->termination;
+    map.iterations += result.extremal->iterations;
+    map.factorizations += result.extremal->factorizations;
+}
+
 }  // namespace
 
 LpRegistration register_least_lp(const Surface& source, const Surface& target,
@@ -367,13 +383,14 @@ LpRegistration register_least_lp(const Surface& source, const Surface& target,
                         std::to_string(result.start_flipped.size()) + " that cannot be opened",
                     "give curves that run alike on both surfaces, fewer of them, or a start without flips",
                     {Things::faces, flipped});
+    if (options.extremal) go_on_to_extremal(found, wanted.constraints, model->target(), options, result);
     const Positions own = positions_of(own_part(source, model->target(), wanted.constraints, result.map.map).points);
     result.places = model->locate(own);
     meet_landmarks(landmarks, result);
     result.carried.distortion = model->distortion_of(source, own);
     result.measure(source, target, result.carried.distortion.mu);
-    result.curve_distance = distance_from_curves(target.mesh, model->locate(positions_of(result.map.map.points)),
-                                                 result.source, wanted.target);
+    result.divided = model->locate(positions_of(result.map.map.points));
+    result.curve_distance = distance_from_curves(target.mesh, result.divided, result.source, wanted.target);
     append(result.warnings, result.map.warnings);
     return result;
 }

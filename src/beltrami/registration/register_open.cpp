@@ -7,6 +7,7 @@
 
 #include <beltrami/base/error.h>
 #include <beltrami/charts/chart_places.h>
+#include <beltrami/registration/braided_start.h>
 #include <beltrami/registration/soft_pins.h>
 #include <beltrami/registration/transfer.h>
 #include <beltrami/starts/target_model.h>
@@ -86,6 +87,43 @@ Eigen::VectorXcd wanted_start(const Surface& source, std::span<const MeshPoint> 
     for (std::size_t v = 0; v < places.size(); ++v)
         start[static_cast<Eigen::Index>(v)] = places[v].interpolate(circles.chart.vertices);
     return start;
+}
+
+/// The steps of ways in the target's circle domain, in the order of the pins.
+std::vector<std::vector<std::optional<Complex>>> stops_in(const CircleDomainChart& circles, const Problem& problem,
+                                                          std::span<const SurfaceWaypoint> waypoints,
+                                                          std::span<const SurfaceLandmark> landmarks) {
+    std::vector<std::vector<std::optional<Complex>>> result;
+    for (const auto& named : stops_of(waypoints, landmarks)) {
+        auto& stop = result.emplace_back(problem.weights.size());
+        for (std::size_t i = 0; i < named.size(); ++i) {
+            if (!named[i]) continue;
+            const int v = landmarks[i].vertex;
+            if (problem.pinned[i] < 0)
+                throw Error(Cause::bad_option, "landmark " + std::to_string(v) + " is on the boundary and has a way",
+                            "ways are those of landmarks inside", {Things::vertices, {v}});
+            stop[problem.pinned[i]] = named[i]->interpolate(circles.chart.vertices);
+        }
+    }
+    return result;
+}
+
+/// The extremal map in the class of the landmarks' ways. Soft landmarks are met first: from there on they move little.
+ExtremalMap map_along_ways(const Surface& source, const Problem& problem,
+                           std::span<const std::vector<std::optional<Complex>>> stops, ExtremalOptions how) {
+    const BraidedStart braided = braided_start(source, problem.constraints, stops);
+    how.start = braided.map;
+    ExtremalMap result = extremal_map(source, problem.constraints, how);
+    if (!result.one_to_one() || !braided.same_class(result.map.head(source.mesh.vertex_count())))
+        throw Error(Cause::not_solved,
+                    "no map of least dilatation was found in the class that the landmarks' ways say: from the map with "
+                    "landmarks led along them the iteration " +
+                        std::string(result.one_to_one() ? "left it" : "ended folded"),
+                    "refine the mesh of the source, or check that the ways do not wind around each other more often "
+                    "than is meant");
+    if (!problem.soft) return result;
+    how.start = result.map.head(source.mesh.vertex_count());
+    return SoftPins(source, problem.constraints, problem.weights, how).settle();
 }
 
 /// Boundary vertices at their angles on the target's boundary, the others where the chart has them.
@@ -184,8 +222,15 @@ OpenRegistration register_open(const Surface& source, const Surface& target, std
     const Problem problem = problem_of(source, target, landmarks, result.target, options.outer_loop);
     ExtremalOptions how = options.map;
     if (!options.start.empty()) how.start = wanted_start(source, options.start, result.target);
-    result.map = problem.soft ? SoftPins(source, problem.constraints, problem.weights, how).settle()
-                              : extremal_map(source, problem.constraints, how);
+    if (!options.waypoints.empty()) {
+        if (how.start)
+            throw Error(Cause::bad_option, "waypoints are given, and a start", "ways choose the class: leave one out");
+        result.map =
+            map_along_ways(source, problem, stops_in(result.target, problem, options.waypoints, landmarks), how);
+    } else {
+        result.map = problem.soft ? SoftPins(source, problem.constraints, problem.weights, how).settle()
+                                  : extremal_map(source, problem.constraints, how);
+    }
     result.map.factorizations += result.target.factorizations;
     result.places = places_on(source, target, result.target, result.map);
     std::vector<SurfaceLandmark> met;  // exactly; others on the boundary went to where that is nearest

@@ -15,6 +15,8 @@ struct OpenRegistrationOptions {
     /// Places on the target of every vertex of the source, to start from. The iteration has no barrier: from a start of
     /// another homotopy class than that of straight ways it may come back to that.
     std::vector<MeshPoint> start = {};
+    /// Ways of landmarks inside over the target, which choose the homotopy class.
+    std::vector<SurfaceWaypoint> waypoints = {};
     bool check_inverse = true;
     int outer_loop = 0;         ///< the boundary loop of the source whose partner goes to the unit circle
     int target_outer_loop = 0;  ///< that partner
@@ -34,8 +36,11 @@ struct OpenRegistration : CarriedSurface {
 /// places: boundaries slide along each other, landmarks inside are pinned, those on the boundary marked
 /// (extremal_map.h), by way of the target's circle domain. A landmark on the boundary goes to the point of the target's
 /// boundary nearest to its place, with a warning where that is far. Soft landmarks move from their places as those of
-/// the sphere do (soft_landmarks.h).
-/// @throw Error bad_mesh, bad_boundary, bad_option (a soft landmark on the boundary, too), not_solved, cancelled
+/// the sphere do (soft_landmarks.h). With waypoints landmarks are led along their ways first (braided_start.h), and a
+/// map that has left the class of these is refused.
+/// @throw Error bad_mesh, bad_boundary, bad_option (a soft landmark on the boundary, too, and a start beside
+/// waypoints),
+///        not_solved, cancelled
 OpenRegistration register_open(const Surface& source, const Surface& target, std::span<const SurfaceLandmark> landmarks,
                                const OpenRegistrationOptions& options = {});
 

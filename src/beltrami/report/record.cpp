@@ -151,6 +151,16 @@ HyperbolicRecord hyperbolic_record(const HyperbolicSurface& metric, const Hyperb
     return record;
 }
 
+MapRecord map_record(const LpRegistration& result) {
+    MapRecord record = map_record(result.carried.distortion);
+    if (!result.extremal) return record;
+    record.k = result.extremal->k;
+    record.K = result.extremal->K;
+    record.K_lower = result.extremal->K_lower;
+    record.bounds = {{Bound::Kind::reich_strebel, result.extremal->K_lower, Bound::Of::extremal, false}};
+    return record;
+}
+
 MapRecord map_record(const TorusMap& result) {
     MapRecord record = map_record(result.distortion);
     record.k = result.k;
@@ -215,8 +225,12 @@ SolveRecord solve_record(const SurfaceFlowMap& result, double seconds_total) {
 RegistrationRecord registration_record(const LpRegistration& result, double p, const std::string& target,
                                        std::size_t landmarks) {
     RegistrationRecord record = carried_record(result, target, landmarks);
-    record.lp = {p, static_cast<int>(result.source.curves.size()), static_cast<int>(result.start_flipped.size()),
-                 result.curve_distance};
+    record.lp = {p,
+                 static_cast<int>(result.source.curves.size()),
+                 static_cast<int>(result.start_flipped.size()),
+                 result.curve_distance,
+                 {}};
+    if (const auto& extremal = result.extremal) record.lp->by_phi = {extremal->mean, extremal->standard_deviation};
     return record;
 }
 

@@ -274,6 +274,7 @@ PeriodsRecord periods_record(const HomologyBasis& loops, const Eigen::MatrixXi& 
 TorusRecord torus_record(const FlatTorus& torus);
 HyperbolicRecord hyperbolic_record(const HyperbolicSurface& metric, const HyperbolicDomain& domain);
 MapRecord map_record(const ExtremalSphereMap& result);
+MapRecord map_record(const LpRegistration& result);
 MapRecord map_record(const TorusMap& result);
 MapRecord map_record(const HyperbolicMap& result);
 SolveRecord solve_record(const ExtremalSphereMap& result, double seconds_total);

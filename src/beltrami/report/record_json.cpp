@@ -185,11 +185,13 @@ Json to_object(const RegistrationRecord& registration) {
         object["by_phi"] = {{"mean", number(sphere->weighted_mean)}, {"std", number(sphere->weighted_deviation)}};
         object["separation"] = number(sphere->separation);
     }
-    if (const auto& lp = registration.lp)
+    if (const auto& lp = registration.lp) {
         object["lp"] = {{"p", lp->p},
                         {"curves", lp->curves},
                         {"start_flipped", lp->start_flipped},
                         {"curve_distance", lp->curve_distance}};
+        if (lp->by_phi) object["by_phi"] = {{"mean", number((*lp->by_phi)[0])}, {"std", number((*lp->by_phi)[1])}};
+    }
     if (const auto& handles = registration.handles) {
         object["homology"] = to_rows(handles->homology);
         object["mended"] = handles->mended;

@@ -148,9 +148,13 @@ std::string lines_of(const RegistrationRecord::WithHandles& handles) {
 /// How the map sits in space.
 std::string lines_of(const RegistrationRecord& registration) {
     std::string text;
+    const auto by_phi = [](double mean, double deviation) {
+        return fmt::format("weighted by |phi|, |mu| is {:.4f} with a deviation of {:.4f}\n", mean, deviation);
+    };
     if (const auto& sphere = registration.sphere; sphere && sphere->dimension > 0)
-        text += fmt::format("weighted by |phi|, |mu| is {:.4f} with a deviation of {:.4f}\n", sphere->weighted_mean,
-                            sphere->weighted_deviation);
+        text += by_phi(sphere->weighted_mean, sphere->weighted_deviation);
+    if (registration.lp && registration.lp->by_phi)
+        text += by_phi((*registration.lp->by_phi)[0], (*registration.lp->by_phi)[1]);
     if (registration.handles) text += lines_of(*registration.handles);
     text += fmt::format("straight faces in space: {} flipped, {} where the mesh does not resolve the map\n",
                         registration.flipped_in_space, registration.unresolved);

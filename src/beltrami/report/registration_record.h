@@ -20,11 +20,13 @@ struct RegistrationRecord {
         double separation = 0;                             ///< least distance of two landmarks on the conformal spheres
     };
     std::optional<OnSphere> sphere;
-    /// Of least Lᵖ maps.
+    /// Of least Lᵖ maps, and of those of least dilatation that start from them.
     struct LeastLp {
         double p = 2;
         int curves = 0, start_flipped = 0;  ///< faces that the start had flipped
         double curve_distance = 0;          ///< largest of a vertex of a curve from its partner, in the target's units
+        /// Mean and deviation of |μ| by |φ|, where the map is that of least dilatation.
+        std::optional<std::array<double, 2>> by_phi;
     };
     std::optional<LeastLp> lp;
     /// Of closed surfaces with handles.

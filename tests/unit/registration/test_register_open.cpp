@@ -96,6 +96,40 @@ TEST(RegisterOpen, ALandmarkOnTheBoundaryStaysThere) {
     EXPECT_EQ(found.warnings[0].kind, WarningKind::marks);
 }
 
+TEST(RegisterOpen, WaysChooseTheClass) {
+    // 220 stays in the middle of the sheet, the other goes around it on one side, on the other, or not at all.
+    const Surface sheet(test::raised_sheet(20, 0));
+    const auto place = [&](int v) { return place_of_vertex(sheet.mesh, v); };
+    const std::vector<SurfaceLandmark> landmarks =
+        test::landmarks_between(sheet.mesh, {{220, 220}, {217, 223}, {110, 110}, {330, 330}});
+    OpenRegistrationOptions above, below;
+    above.waypoints = {{1, 217, place(220 + 3 * 21)}};
+    below.waypoints = {{1, 217, place(220 - 3 * 21)}};
+    const OpenRegistration first = register_open(sheet, sheet, landmarks, above),
+                           second = register_open(sheet, sheet, landmarks, below);
+    for (const OpenRegistration* found : {&first, &second}) {
+        EXPECT_TRUE(found->map.one_to_one());
+        EXPECT_GT(found->map.k, 0.2) << found->map.K_lower << " " << found->map.K;
+        EXPECT_LT((found->positions.row(217).transpose() - sheet.mesh.point(223)).norm(), 1e-12);
+    }
+    // The landmark's left neighbours come by on different sides.
+    EXPECT_GT((first.positions.row(218) - second.positions.row(218)).norm(), 0.01);
+    // Straight ways are no other class than none.
+    const std::vector<SurfaceLandmark> near =
+        test::landmarks_between(sheet.mesh, {{220, 220}, {217, 238}, {110, 110}, {330, 330}});
+    OpenRegistrationOptions straight;
+    straight.waypoints = {{1, 110, place(110)}};
+    EXPECT_NEAR(register_open(sheet, sheet, near, straight).map.k, register_open(sheet, sheet, near).map.k, 1e-4);
+    // Impossible ways.
+    straight.start = first.places;
+    EXPECT_EQ(test::cause_of([&] { register_open(sheet, sheet, near, straight); }), Cause::bad_option);
+    OpenRegistrationOptions into;
+    into.waypoints = {{1, 217, place(220)}};  // where another one is
+    EXPECT_EQ(test::cause_of([&] { register_open(sheet, sheet, landmarks, into); }), Cause::bad_boundary);
+    into.waypoints = {{1, 5, place(220)}};
+    EXPECT_EQ(test::cause_of([&] { register_open(sheet, sheet, landmarks, into); }), Cause::bad_option);
+}
+
 TEST(RegisterOpen, RefusesWhatCannotBe) {
     const Surface source(sheet(0)), target(sheet(0.15)), tube(cylinder(1, 2, 12, 8));
     EXPECT_EQ(test::cause_of([&] { register_open(source, tube, {}); }), Cause::bad_mesh);
