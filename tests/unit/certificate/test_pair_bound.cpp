@@ -120,8 +120,9 @@ TEST(BranchedCover, SignsChangeAroundBranchPointsOnly) {
         product[b] *= change;
     }
     for (int v = 0; v < surface.mesh.vertex_count(); ++v)
-        if (!surface.topology.on_boundary[v])
+        if (!surface.topology.on_boundary[v]) {
             EXPECT_EQ(product[v], std::find(branches.begin(), branches.end(), v) == branches.end() ? 1 : -1) << v;
+        }
 }
 
 TEST(PairBound, OnTheDoubleCoverAtAPin) {

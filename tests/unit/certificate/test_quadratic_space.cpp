@@ -126,8 +126,9 @@ TEST(EdgeSplit, IsTheSameSurfaceWithTheSameValues) {
     for (int e = 0; e < surface.topology.edge_count(); ++e) {
         if (!marked[e]) continue;
         const auto [a, b] = surface.topology.edges[e];
-        if (surface.topology.edge_faces[e][0] < 0 || surface.topology.edge_faces[e][1] < 0)
+        if (surface.topology.edge_faces[e][0] < 0 || surface.topology.edge_faces[e][1] < 0) {
             EXPECT_LT(std::abs(after[next] - 0.5 * (before[a] + before[b])), 1e-15);
+        }
         ++next;
     }
 }

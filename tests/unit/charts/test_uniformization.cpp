@@ -84,7 +84,9 @@ void expect_normalised(const Surface& surface, const Uniformization& found) {
     for (const RoundHole& hole : found.holes)
         for (const int v : surface.topology.boundary_loops[hole.loop])
             EXPECT_NEAR(std::abs(found.map[v] - hole.centre), hole.radius, 1e-14);
-    if (!found.holes.empty()) EXPECT_EQ(found.holes[0].centre, 0.0);
+    if (!found.holes.empty()) {
+        EXPECT_EQ(found.holes[0].centre, 0.0);
+    }
     if (found.holes.size() > 1) {
         EXPECT_EQ(found.holes[1].centre.imag(), 0);
         EXPECT_GT(found.holes[1].centre.real(), 0);
