@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
+#include <vector>
 
 #include <beltrami/base/error.h>
 
@@ -15,6 +18,10 @@ constexpr double kLargeCoefficient = 0.8;
 /// A bracket wider than this part of K is worth a second solve, on meshes that are not very large.
 constexpr double kWideGap = 0.01;
 constexpr int kMostSharpenedSamples = 100'000;
+
+/// Where faces with less than this part of ∫|φ| change the estimate of K by more than that part, it is theirs: at
+/// jagged corners a face has |μ| as near to 1 as it likes.
+constexpr double kCrushedPart = 0.01, kCrushes = 0.1;
 
 /// Whether a map has the turns that are wanted, and whether that can be known.
 struct SameClass {
@@ -33,6 +40,31 @@ SameClass same_class(const Solution& s, const QuadraticMap& map) {
         if (!given && !wanted.holes[i].meaningful) result.known = false;
     }
     return result;
+}
+
+/// √(I⁺/I⁻) with the faces where |μ| is largest, that hold a part of ∫|φ|, held at the |μ| of the next: what a map has
+/// that crushes none of them.
+double estimate_without_crushed(const Surface& source, const Eigen::VectorXcd& phi, const Eigen::VectorXcd& mu) {
+    std::vector<Eigen::Index> order(static_cast<std::size_t>(mu.size()));
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
+        return std::pair(-std::norm(mu[a]), a) < std::pair(-std::norm(mu[b]), b);
+    });
+    const auto mass = [&](Eigen::Index s) { return source.operators.weights[s] * std::abs(phi[s]); };
+    double total = 0, left_out = 0, held = 0;
+    for (const Eigen::Index s : order) total += mass(s);
+    for (const Eigen::Index s : order) {
+        held = std::abs(mu[s]);
+        if ((left_out += mass(s)) > kCrushedPart * total) break;
+    }
+    double norm = 0, pairing = 0;
+    for (Eigen::Index s = 0; s < mu.size(); ++s) {
+        const double size = std::abs(mu[s]);
+        const Complex m = size > held ? Complex(mu[s] * (held / size)) : mu[s];
+        norm += mass(s) * (1 + std::norm(m)) / (1 - std::norm(m));
+        pairing += source.operators.weights[s] * 2 * std::real(m * phi[s]) / (1 - std::norm(m));
+    }
+    return norm > pairing ? std::sqrt((norm + pairing) / (norm - pairing)) : 1;
 }
 
 /// Whether φ jumps where and as it may. Across edges with pinned ends it may in any way, and in a chart that is a
@@ -77,6 +109,11 @@ SolutionBounds solution_bounds(const Solution& s, std::optional<int> subdivision
         lower = std::max(lower, own.lower);
         rigorous = own.resolved && proves(s.source, s.chart) && jumps_are_exact(s);
         estimate = own.estimate;
+        if (s.space.tabulated()) {
+            const double uncrushed = estimate_without_crushed(s.source, s.phi, s.distortion.mu);
+            if (estimate > (1 + kCrushes) * uncrushed || uncrushed > (1 + kCrushes) * estimate)
+                estimate = std::max(uncrushed, lower);
+        }
     }
     if (sharpened) {
         // Bound and estimate belong together: those of the map that does better.

@@ -80,17 +80,25 @@ void take_samples(const Operators& operators, const Eigen::VectorXcd& values, Ch
     chart.positions = at_samples(operators, values);
     chart.derivatives.resize(operators.sample_count());
     chart.excluded.assign(operators.sample_count(), 0);
-    parallel_for(0, operators.sample_count(), [&](int begin, int end) {
-        for (int s = begin; s < end; ++s) {
-            const auto [dz, dzbar] = operators.derivatives(s, values);
-            chart.derivatives[s] = dz;
-            chart.excluded[s] = !(std::norm(dzbar) < kMostDistorted * kMostDistorted * std::norm(dz));
-        }
-    });
     std::vector<int> excluded;
-    for (int s = 0; s < operators.sample_count(); ++s)
-        if (chart.excluded[s] && (excluded.empty() || operators.faces[s] != excluded.back()))
-            excluded.push_back(operators.faces[s]);
+    // A chart that is far from conformal everywhere, of a few long faces, is better than none.
+    for (const double limit : {kMostDistorted, kWithoutShape, 1.0}) {
+        parallel_for(0, operators.sample_count(), [&](int begin, int end) {
+            for (int s = begin; s < end; ++s) {
+                const auto [dz, dzbar] = operators.derivatives(s, values);
+                chart.derivatives[s] = dz;
+                chart.excluded[s] = !(std::norm(dzbar) < limit * limit * std::norm(dz));
+            }
+        });
+        excluded.clear();
+        int kept = 0;
+        for (int s = 0; s < operators.sample_count(); ++s) {
+            kept += !chart.excluded[s];
+            if (chart.excluded[s] && (excluded.empty() || operators.faces[s] != excluded.back()))
+                excluded.push_back(operators.faces[s]);
+        }
+        if (kept > 0) break;
+    }
     chart.excluded_faces = static_cast<int>(excluded.size());
     if (chart.excluded_faces)
         chart.warnings.push_back({WarningKind::chart,

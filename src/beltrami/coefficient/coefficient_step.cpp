@@ -162,6 +162,11 @@ void CoefficientStep::set_space(const DifferentialSpace& space) {
 }
 
 const Eigen::VectorXcd& CoefficientStep::values(const Eigen::VectorXcd& coefficients) {
+    if (coefficients.size() == 0) {  // of a space without functions, where the chart says nothing about any sample
+        last_coefficients_.resize(0);
+        last_values_ = Eigen::VectorXcd::Zero(source_.operators.sample_count());
+        return last_values_;
+    }
     if (coefficients.size() != last_coefficients_.size() || coefficients != last_coefficients_) {
         last_values_ = sampled_.combination(coefficients);
         last_coefficients_ = coefficients;

@@ -1,10 +1,12 @@
 #include <beltrami/teichmuller/crowding.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include <beltrami/base/constants.h>
 #include <beltrami/certificate/chart_quadrilateral.h>
+#include <beltrami/operators/distortion.h>
 
 namespace beltrami {
 
@@ -12,6 +14,8 @@ namespace {
 
 /// Values that force so much in a quadrilateral crowd in the chart (camel_b: 5; other scans 1.1 to 1.8).
 constexpr double kCrowded = 3;
+/// A face may have so many times that before its |μ| is held, but no less and no more than these.
+constexpr double kAboveForced = 4, kLeastClip = 0.95, kMostClip = 0.99;
 constexpr int kWaves = 6;
 /// What is left of a product beside those taken before, as part of the first: less is mesh noise.
 constexpr double kDependent = 1e-3;
@@ -53,12 +57,20 @@ Eigen::MatrixXcd orthonormal(Eigen::MatrixXcd columns) {
     return columns;
 }
 
+/// The K that quadrilaterals of the rim force in the chart.
+double forced(const Surface& source, const Chart& chart, const Eigen::VectorXcd& harmonic) {
+    const Eigen::VectorXcd images = harmonic(source.topology.boundary_loops[0]);
+    return chart_quadrilateral_estimate(source, chart, {images.begin(), images.end()});
+}
+
 }  // namespace
 
 bool values_crowd(const Surface& source, const Chart& chart, const Eigen::VectorXcd& harmonic) {
-    if (source.operators.sample_count() < kLeastSamples) return false;
-    const Eigen::VectorXcd images = harmonic(source.topology.boundary_loops[0]);
-    return chart_quadrilateral_estimate(source, chart, {images.begin(), images.end()}) >= kCrowded;
+    return source.operators.sample_count() >= kLeastSamples && forced(source, chart, harmonic) >= kCrowded;
+}
+
+double crowded_clip(const Surface& source, const Chart& chart, const Eigen::VectorXcd& harmonic) {
+    return std::clamp(k_of(kAboveForced * forced(source, chart, harmonic)), kLeastClip, kMostClip);
 }
 
 Chart uncrowded(const Surface& source, Chart chart, const Eigen::VectorXcd& harmonic) {

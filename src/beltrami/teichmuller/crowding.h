@@ -14,8 +14,11 @@ bool values_crowd(const Surface& source, const Chart& chart, const Eigen::Vector
 /// harmonic map, where nothing is crowded, in the frame that these have. Vertices stay where the chart has them.
 Chart uncrowded(const Surface& source, Chart chart, const Eigen::VectorXcd& harmonic);
 
-/// Where |μ| is held of maps of such disks, and the fewest clusters of samples that resolve φ there.
-inline constexpr double kCrowdedClip = 0.99;
+/// Where the c-step holds |μ| of maps of such disks, 0.95 to 0.99: at what has four times the K that quadrilaterals
+/// force. Held higher, single faces at jagged corners keep φ from settling.
+double crowded_clip(const Surface& source, const Chart& chart, const Eigen::VectorXcd& harmonic);
+
+/// The fewest clusters of samples that resolve φ there.
 inline constexpr int kCrowdedClusters = 8'000;
 
 /// Products of the one-forms ∂F_j and conj(∂̄F_j) of the harmonic functions F_j with the boundary values e^{ijt}, where

@@ -97,9 +97,10 @@ void PoleChoice::take_form_products() {
     const Surface& source = problem_.source();
     const Eigen::VectorXcd& harmonic = problem_.harmonic();
     products_ = form_product_space(source, problem_.solver(), harmonic);
+    const double clip = crowded_clip(source, problem_.chart(), harmonic);
     problem_.set_chart(uncrowded(source, problem_.chart(), harmonic));
     problem_.set_singularities({}, std::max(options_.cluster_count, kCrowdedClusters));
-    problem_.coefficient_step().set_clip(kCrowdedClip);
+    problem_.coefficient_step().set_clip(clip);
 }
 
 HamiltonState PoleChoice::choose(ProblemChart charts, bool plain) {

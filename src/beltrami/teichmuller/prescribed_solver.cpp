@@ -330,6 +330,7 @@ ExtremalMap PrescribedSolver::record() const {
     ExtremalOptions how = options_;
     if (poles_.products() && !how.prove) how.prove = true;
     record_proofs(source_, boundary_, how, result);
+    if (poles_.products() && *how.prove) record_finer_pair(source_, boundary_, result);
     withdraw_unconfirmed(result);
     return result;
 }

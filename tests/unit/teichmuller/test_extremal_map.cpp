@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include <beltrami/base/error.h>
@@ -232,6 +233,31 @@ TEST(ExtremalMap, MeshesWithoutInnerVertices) {
         EXPECT_TRUE(result.one_to_one());
         EXPECT_LE(result.K_lower_proved, result.K);
         EXPECT_LE(result.K_lower, result.K_max);
+    }
+}
+
+/// 24 faces stretched twenty times over rough ground: no face of the chart is anywhere near conformal.
+TEST(ExtremalMap, PinsWhereTheChartSaysNextToNothing) {
+    for (int seed = 0; seed < 8; ++seed) {
+        Mesh mesh = disk(2);
+        const Positions flat = mesh.positions;
+        mesh.positions.resize(flat.rows(), 3);
+        for (Eigen::Index v = 0; v < flat.rows(); ++v)
+            mesh.positions.row(v) << 20 * flat(v, 0), flat(v, 1),
+                0.6 * std::sin(1.7 * (seed + 1) * static_cast<double>(v * v));
+        const Surface surface(mesh);
+        BoundaryCondition boundary = boundary_to_disk(surface, 0.3);
+        const Eigen::VectorXcd harmonic = harmonic_map(surface, boundary);
+        int inner = mesh.vertex_count() - 1;
+        while (surface.topology.on_boundary[inner]) --inner;
+        boundary.pin(inner, harmonic[inner] + 0.02);
+        const ExtremalMap result = extremal_map(surface, boundary);
+        EXPECT_GT(result.K, 1) << seed;
+        EXPECT_LE(result.K_lower_proved, result.K) << seed;
+        EXPECT_FALSE(result.warnings.empty()) << seed;
+        if (result.one_to_one()) {
+            EXPECT_LE(result.K_lower_proved, result.K_max) << seed;
+        }
     }
 }
 

@@ -112,6 +112,20 @@ TEST(Proofs, SmoothProblemsKeepTheirEstimates) {
     EXPECT_GE(result.K_lower_proved, value_of(result, Bound::Kind::reich_strebel));
 }
 
+TEST(Proofs, PairsOnTheSubdividedMeshProveMore) {
+    const Surface surface(disk(8));
+    const BoundaryCondition boundary = test::boundary_values(surface, test::exact_composition);
+    const ExtremalMap result = extremal_map(surface, boundary);
+    ExtremalMap finer = result;
+    record_finer_pair(surface, boundary, finer);
+    expect_ordered(finer);
+    EXPECT_GT(value_of(finer, Bound::Kind::pair), value_of(result, Bound::Kind::pair) + 0.001);
+    EXPECT_LT(value_of(finer, Bound::Kind::pair), 3.0292);  // verified from above for these polygons
+    EXPECT_EQ(std::count_if(finer.bounds.begin(), finer.bounds.end(),
+                            [](const Bound& bound) { return bound.kind == Bound::Kind::pair; }),
+              1);
+}
+
 TEST(Proofs, APinnedPointOfASquare) {
     // The plane is a chart, so Reich-Strebel with a pole at the pin is a proof; the branched pair is another.
     const Surface surface(test::jittered_square(16));
