@@ -142,8 +142,7 @@ class Flow {
 
     /// Where steps leave flips that patches of means or unfolded ones do not: goes on with fewer.
     bool opens_patches() {
-        const bool may = options_.scheme == FlowScheme::automatic || options_.scheme == FlowScheme::perturbation;
-        if (!may || flips_ == 0) return false;
+        if (options_.scheme != FlowScheme::automatic || flips_ == 0) return false;
         std::vector<char> held;
         for (const signed char unknowns : motion_.unknowns()) held.push_back(unknowns < 2);
         int left = average_flipped_patches(source_, motion_.target(), held, result_.map);

@@ -75,7 +75,13 @@ std::vector<CurvePair> pairs_on(const Mesh& mesh, std::span<const CurveOnto> cur
 /// divided along them; nothing where it stays folded.
 std::optional<Positions> cut_along(const Surface& source, const Surface& target, const std::vector<CurvePair>& pairs) {
     try {
-        return positions_on(target.mesh, register_least_lp(source, target, {}, pairs).divided);
+        LpRegistration found = register_least_lp(source, target, {}, pairs);
+        // Other ways to cut may divide other faces: the start is then that of the source's own vertices.
+        std::vector<CurveThrough> curves;
+        for (const CurvePair& pair : pairs) curves.push_back(pair.source);
+        const Positions &own = mesh_with_curves(source.mesh, curves).mesh.positions, &cut = found.source.mesh.positions;
+        if (own.rows() != cut.rows() || own != cut) return std::move(found.positions);
+        return positions_on(target.mesh, found.divided);
     } catch (const Error& error) {
         if (error.cause() != Cause::not_solved) throw;
         return {};
