@@ -6,6 +6,7 @@
 #include <beltrami/registration/nearest_places.h>
 #include <beltrami/registration/overlay.h>
 #include <beltrami/registration/transfer.h>
+#include <beltrami/registration/transferred_polyline.h>
 #include <beltrami/uniformize/sphere_map.h>
 
 #include "command.h"
@@ -44,8 +45,13 @@ class Transfer final : public Command {
             "the faces of both meshes laid over each other; OUT is the other surface, divided into triangles "
             "that lie in one face of both (in PLY source_face, target_face), with exact texture coordinates");
         what->add_option("--points", points_,
-                         "points, such as those of a polyline in their order: `face b0 b1 b2` or `x y z`, of which the "
-                         "nearest point of the surface is taken; OUT has `x y z` a line")
+                         "points: `face b0 b1 b2` or `x y z`, of which the nearest point of the surface is taken; OUT "
+                         "has `x y z` a line")
+            ->type_name("FILE");
+        what->add_option(
+                "--polyline", polyline_,
+                "likewise the points of a polyline in their order, the first again at the end of a closed one; "
+                "geodesics join them, and OUT has a line for every point at which the image bends")
             ->type_name("FILE");
         what->add_option("--mesh", mesh_,
                          "a mesh that lies on the surface; OUT is the same mesh with its vertices on the other one")
@@ -57,14 +63,16 @@ class Transfer final : public Command {
             ->check(CLI::NonNegativeNumber)
             ->capture_default_str()
             ->type_name("h");
-        app->add_flag("--as-places", as_places_, "with --points write `face b0 b1 b2` of the other surface");
+        app->add_flag("--as-places", as_places_,
+                      "with --points and --polyline write `face b0 b1 b2` of the other surface");
         app->add_flag("--quiet", quiet_, "print nothing but errors");
         app->footer(kExitCodes);
     }
 
     int run() override {
-        if (as_places_ && points_.empty())
-            throw Error(Cause::bad_option, "--as-places belongs to --points", "leave it out, or give --points");
+        if (as_places_ && points_.empty() && polyline_.empty())
+            throw Error(Cause::bad_option, "--as-places belongs to --points and --polyline",
+                        "leave it out, or give one of these");
         if (texture_ || overlay_ || !mesh_.empty()) require_mesh_format(output_);
         check_files({{"SOURCE", source_},
                      {"TARGET", target_},
@@ -72,6 +80,7 @@ class Transfer final : public Command {
                      {"--values", values_},
                      {"--face-values", face_values_},
                      {"--points", points_},
+                     {"--polyline", polyline_},
                      {"--mesh", mesh_}},
                     {{"-o", output_}});
         const MeshInput source = load(source_), target = load(target_);
@@ -86,7 +95,9 @@ class Transfer final : public Command {
         else if (overlay_)
             write_overlay(way, back_ ? source : target);
         else if (!points_.empty())
-            write_points(way);
+            write_places_of(way, way(read_places_of(way, points_)));
+        else if (!polyline_.empty())
+            write_places_of(way, way.polyline(read_places_of(way, polyline_)));
         else
             write_carried_mesh(way);
         if (!quiet_) {
@@ -116,6 +127,9 @@ class Transfer final : public Command {
         }
         Positions face_values(const Positions& values) const {
             return transferred_face_values(forward, values, transfer());
+        }
+        std::vector<MeshPoint> polyline(std::span<const MeshPoint> places) const {
+            return transferred_polyline(forward, places, transfer()).places;
         }
         TransferWay transfer() const { return back ? TransferWay::to_source : TransferWay::to_target; }
     };
@@ -182,16 +196,20 @@ class Transfer final : public Command {
                              std::move(texture)});
     }
 
-    void write_points(const Direction& way) {
-        const std::vector<NumberRow> rows = read_number_rows(points_, 3, 5, "a point x y z, or face and weights");
+    std::vector<MeshPoint> read_places_of(const Direction& way, const std::string& path) {
+        const std::vector<NumberRow> rows = read_number_rows(path, 3, 5, "a point x y z, or face and weights");
         std::vector<MeshPoint> places;
         places.reserve(rows.size());
         for (const NumberRow& row : rows)
             places.push_back(row.numbers.size() == 3
                                  ? nearest(way, Eigen::Map<const Eigen::RowVector3d>(row.numbers.data()))[0]
-                                 : place_of_row(points_, row, way.from()));
+                                 : place_of_row(path, row, way.from()));
+        return places;
+    }
+
+    void write_places_of(const Direction& way, std::span<const MeshPoint> places) const {
         std::string text;
-        for (const MeshPoint& place : way(places)) {
+        for (const MeshPoint& place : places) {
             if (as_places_) {
                 text += line_of_place(way.to(), place);
                 continue;
@@ -227,7 +245,7 @@ class Transfer final : public Command {
         return way.to_unit() * point;
     }
 
-    std::string source_, target_, places_, output_, values_, face_values_, points_, mesh_;
+    std::string source_, target_, places_, output_, values_, face_values_, points_, polyline_, mesh_;
     int target_outer_ = 0;
     bool texture_ = false, overlay_ = false, back_ = false, as_places_ = false, quiet_ = false;
     double farthest_ = 0;

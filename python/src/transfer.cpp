@@ -1,4 +1,5 @@
 #include <beltrami/registration/nearest_places.h>
+#include <beltrami/registration/transferred_polyline.h>
 
 #include "module.h"
 #include "registration.h"
@@ -85,6 +86,20 @@ void bind_transfer(py::module_& m) {
         py::arg("map"), py::arg("to_source") = false,
         "The texture coordinates of one surface on the other, as Mesh(texture=…) takes them: n×2 points, one for each "
         "corner.\n\nRaises BadMesh if the surface has none, or not at every corner.");
+    m.def(
+        "transferred_polyline",
+        [](const SurfaceCorrespondence& map, const Places& points, bool to_source) {
+            require_on(to_source ? map.target() : map.source(), points);
+            TransferredPolyline found =
+                without_lock([&] { return transferred_polyline(map, points.points, way_from(to_source)); });
+            return py::make_tuple(Places{std::move(found.places)}, index_array(found.given));
+        },
+        py::arg("map"), py::arg("points"), py::arg("to_source") = false,
+        "A polyline of one surface on the other: (Places, numbers of the images of the given points). Points are "
+        "joined "
+        "by geodesics, the image has a place wherever it bends.\n\nRaises BadBoundary if no way leads from one point "
+        "to "
+        "the next.");
     m.def(
         "places_of_vertices", [](const Mesh& mesh) { return Places{places_of_vertices(mesh)}; }, py::arg("mesh"),
         "#V Places of the vertices; face -1 for those that no face names.");

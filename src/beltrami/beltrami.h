@@ -84,6 +84,7 @@
 #include <beltrami/registration/register_open.h>
 #include <beltrami/registration/register_spheres.h>
 #include <beltrami/registration/transfer.h>
+#include <beltrami/registration/transferred_polyline.h>
 #include <beltrami/remeshing/carried_data.h>
 #include <beltrami/remeshing/feature_curves.h>
 #include <beltrami/remeshing/mesh_comparison.h>

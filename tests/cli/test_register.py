@@ -119,8 +119,13 @@ class Register(Command):
         pathlib.Path(self.path("out.obj")).rename(self.path("start.obj"))
         again = self.register("--landmarks", pairs, "--start-map", self.path("start.obj"))
         self.assertAlmostEqual(again["map"]["k"], first["map"]["k"], delta=2e-3)
-        way = self.write_text("way.txt", [(1, 40, 60)])
-        self.assertIn("closed surfaces", self.refused(2, "--landmarks", pairs, "--waypoints", way))
+        # A way there and back is the class of none; one into another landmark is none at all.
+        way = self.register("--landmarks", pairs, "--waypoints", self.write_text("way.txt", [(1, 40, 60)]))
+        self.assertAlmostEqual(way["map"]["k"], first["map"]["k"], delta=1e-3)
+        into = self.write_text("way.txt", [(1, 40, 90), (1, 90, 90)])
+        self.assertIn("step 1", self.refused(5, "--landmarks", pairs, "--waypoints", into))
+        self.assertIn("waypoint", self.refused(2, "--landmarks", pairs, "--waypoints", into, "--start-map",
+                                               self.path("start.obj")))
 
     def test_transfer_between_surfaces_with_boundary(self):
         points, faces = bump(12)
@@ -175,6 +180,13 @@ class Register(Command):
             out, _, _ = read_obj(self.path("out.obj"))
             for v in (arc[0], arc[2]) if mode == "slide" else (*arc, *ring):
                 np.testing.assert_allclose(out[v], self.target[v], atol=1e-6)
+            extremal = self.register("--curves", curves, "--method", "extremal")
+            least, even = records[mode]["map"], extremal["map"]
+            self.assertLess(even["mu"]["std"], least["mu"]["std"])
+            self.assertLess(even["mu"]["max"], least["mu"]["max"])
+            self.assertLessEqual(even["K_lower"], even["K"])
+            self.assertGreater(even["k"], least["mu"]["mean"])
+            self.assertLess(extremal["registration"]["by_phi"]["std"], 0.35 * even["k"])
         self.assertLess(records["slide"]["map"]["mu"]["mean"], records["fixed"]["map"]["mu"]["mean"])
         # Least Lᵖ maps need no curves.
         pairs = self.write_text("pairs.txt", [(v, v) for v in range(5)])
@@ -190,7 +202,8 @@ class Register(Command):
         self.assertIn("does not exist", self.refused(5, "--curves", self.curve_file(("slide", [0, 10**6], [0, 5]))))
         self.assertIn("partner", self.refused(5, "--curves", self.curve_file(("slide", [0, 5], [0, 5, 7]))))
         curves = self.curve_file(("slide", [0, 5], [0, 5]))
-        self.assertIn("--method lp", self.refused(2, "--curves", curves, "--method", "extremal"))
+        way = self.write_text("way.txt", [(1, 0, 5)])
+        self.assertIn("--waypoints", self.refused(2, "--curves", curves, "--method", "extremal", "--waypoints", way))
         for text, said in (("curve wide\n", "curves.txt:1"), ("0\n", "curves.txt:1"), ("curve slide\n0\n5\n", "onto"),
                            ("curve slide\n0\nx\n", "'x' is no number"), ("# none\n", "no curve")):
             pathlib.Path(self.path("curves.txt")).write_text(text)
@@ -254,6 +267,18 @@ class Register(Command):
         pathlib.Path(self.path("values.txt")).rename(self.path("on_b.txt"))
         self.run_command(*arguments, "--points", self.path("on_b.txt"), "--back")
         np.testing.assert_allclose(np.loadtxt(self.path("values.txt")), line, atol=1e-6)
+        # A polyline bends at the edges of both, and is where its points are.
+        self.run_command(*arguments, "--points", self.path("line.txt"))
+        points = np.loadtxt(self.path("values.txt"))
+        np.savetxt(self.path("ends.txt"), line[[0, -1]])
+        self.run_command(*arguments, "--polyline", self.path("ends.txt"))
+        bent = np.loadtxt(self.path("values.txt"))
+        self.assertGreater(len(bent), 2)
+        np.testing.assert_allclose(bent[[0, -1]], points[[0, -1]], atol=1e-9)
+        ways = np.diff(bent, axis=0)
+        for point in points:
+            t = np.clip(((point - bent[:-1]) * ways).sum(1) / (ways**2).sum(1), 0, 1)
+            self.assertLess(np.linalg.norm(bent[:-1] + t[:, None] * ways - point, axis=1).min(), 1e-6)
         # A mesh on the surface: the surface itself goes where its vertices are.
         self.run_command(*arguments[:-1], self.path("carried.obj"), "--mesh", self.path("a.obj"))
         out, _, _ = read_obj(self.path("out.obj"))

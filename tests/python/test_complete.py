@@ -32,7 +32,7 @@ NOT_BOUND: Dict[str, str] = {
         PeriodMatrix FollowedMap HoleTurns HomotopyClass LoopPath HoleRing StartInClass LoadedMesh MuStatistics NearestPlace
         FeatureCurves SurfaceDistance TargetMesh DistanceMatrix Merge TorusDistances LeastDilatationMap InChart NoiseCost
         SlackReport ExtremalPiece ProvedBounds SphereRegistration OpenRegistration LpRegistration HandleRegistration
-        HandleMarking boundary_lengths DrawnSurface""",
+        HandleMarking boundary_lengths DrawnSurface TransferredPolyline""",
     "is what register_handles does with search=True": "search_class ClassSearch",
     "is the picture of deformed_picture, an array, and where it lies": "Picture Box",
     "is Places.interpolate with texture coordinates": "texture_at",

@@ -152,6 +152,11 @@ def test_transfer() -> None:
     assert points.shape[1] == 2 and len(corners) == 3 * b.face_count
     with pytest.raises(bt.BadMesh):
         bt.transferred_texture(map, to_source=True)
+    corners, some = bt.places_of_vertices(a), [0, 40, 80]
+    ends = bt.Places(corners.face[some], corners.vertices[some], corners.barycentric[some])
+    line, given = bt.transferred_polyline(map, ends)
+    assert len(given) == 3 and given[0] == 0 and given[-1] == len(line) - 1
+    assert np.allclose(line.interpolate(b.positions)[given], found.positions[[0, 40, 80]], atol=1e-9)
     again = bt.SurfaceCorrespondence(a, b, bt.sphere_map(b).positions, found.places)
     places = bt.places_of_vertices(a)
     assert np.allclose(again.forward(places).interpolate(b.positions), found.positions, atol=1e-9)

@@ -2,17 +2,21 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include <gtest/gtest.h>
 
 #include <beltrami/base/error.h>
 #include <beltrami/charts/chart_places.h>
+#include <beltrami/curves/surface_curve.h>
 #include <beltrami/generate/grids.h>
+#include <beltrami/registration/nearest_places.h>
 #include <beltrami/registration/overlay.h>
 #include <beltrami/registration/register_open.h>
 #include <beltrami/registration/register_spheres.h>
 #include <beltrami/registration/transfer.h>
+#include <beltrami/registration/transferred_polyline.h>
 
 #include "support/cause_of.h"
 #include "support/registration.h"
@@ -118,6 +122,57 @@ TEST(SurfaceCorrespondence, ComesBackToWhereItBegan) {
     EXPECT_EQ(test::cause_of(
                   [&] { SurfaceCorrespondence(source.mesh, target.mesh, found.target_sphere.positions, swapped); }),
               Cause::bad_mesh);
+}
+
+/// Distance of a point from a polyline.
+double distance_from(const Positions& polyline, const Eigen::RowVector3d& point) {
+    double least = std::numeric_limits<double>::infinity();
+    for (Eigen::Index i = 0; i + 1 < polyline.rows(); ++i) {
+        const Eigen::RowVector3d way = polyline.row(i + 1) - polyline.row(i), off = point - polyline.row(i);
+        const double t = std::clamp(off.dot(way) / std::max(way.squaredNorm(), 1e-300), 0.0, 1.0);
+        least = std::min(least, (off - t * way).norm());
+    }
+    return least;
+}
+
+TEST(TransferredPolyline, BendsWhereItCrossesEdgesOfEitherSurface) {
+    const Surface source(bumpy_ball(3, 0)), target(bumpy_ball(4, 1));
+    const SphereRegistration found = register_spheres(source, target, {});
+    const SurfaceCorrespondence map(source.mesh, target.mesh, found.target_sphere.positions, found.places);
+    const std::vector<MeshPoint> some = some_places(source.mesh, 300);
+    const std::vector<MeshPoint> points{some[0], some[1], some[1], place_of_vertex(source.mesh, 70), some[3], some[0]};
+    const TransferredPolyline line = transferred_polyline(map, points);
+    const Positions there = positions_on(target.mesh, line.places);
+    // Given points are met, those inside of the way in its order.
+    ASSERT_EQ(line.given.size(), points.size());
+    const Positions images = positions_on(target.mesh, map.forward(points));
+    for (std::size_t i = 0; i < points.size(); ++i)
+        EXPECT_LT((there.row(line.given[i]) - images.row(static_cast<Eigen::Index>(i))).norm(), 1e-12);
+    EXPECT_TRUE(std::is_sorted(line.given.begin(), line.given.end()));
+    EXPECT_EQ(line.given.back(), static_cast<int>(line.places.size()) - 1);
+    // Points in the middle of the geodesics' pieces go to the polyline, and it is no longer than that needs.
+    const CurveThrough through{{some[0], some[1], place_of_vertex(source.mesh, 70)}, false};
+    const MeshWithCurves with_curve = mesh_with_curves(source.mesh, std::array{through});
+    const std::vector<int>& chain = with_curve.curves[0].vertices;
+    Positions between(static_cast<Eigen::Index>(5 * (chain.size() - 1)), 3);
+    for (Eigen::Index i = 0; i < between.rows(); ++i) {
+        const double t = 0.1 + 0.2 * static_cast<double>(i % 5);
+        between.row(i) = ((1 - t) * with_curve.mesh.point(chain[static_cast<std::size_t>(i / 5)]) +
+                          t * with_curve.mesh.point(chain[static_cast<std::size_t>(i / 5) + 1]))
+                             .transpose();
+    }
+    std::vector<MeshPoint> on_source;
+    for (const NearestPlace& nearest : nearest_places(source.mesh, between)) on_source.push_back(nearest.place);
+    const Positions straight = positions_on(target.mesh, map.forward(on_source));
+    for (const auto& point : straight.rowwise()) EXPECT_LT(distance_from(there, point), 1e-9);
+    EXPECT_GT(line.places.size(), chain.size());
+    // Back it is where it was.
+    const TransferredPolyline back = transferred_polyline(map, line.places, TransferWay::to_source);
+    const Positions here = positions_on(source.mesh, map.back(line.places)),
+                    again = positions_on(source.mesh, back.places);
+    for (const auto& point : again.rowwise()) EXPECT_LT(distance_from(here, point), 1e-9);
+    EXPECT_TRUE(transferred_polyline(map, {}).places.empty());
+    EXPECT_EQ(transferred_polyline(map, std::span(points).first(1)).places.size(), 1U);
 }
 
 TEST(Overlay, OfSurfacesWithoutCommonVerticesIsASphere) {
