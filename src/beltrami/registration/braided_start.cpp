@@ -85,7 +85,8 @@ class PushedArcs {
 
     /// All points straight and evenly to others.
     void move(const std::vector<Complex>& to) {
-        for (double left = 1; left > 0;) {
+        double left = 1;
+        while (left > 0) {
             double part = left;
             for (std::size_t i = 0; i < points_.size(); ++i)
                 part = std::min(part, kPush * reach(i) / std::max(std::abs(to[i] - points_[i]), 1e-300) * left);
@@ -181,6 +182,8 @@ BraidedStart braided_start(const Surface& source, const Constraints& constraints
     for (std::size_t step = 0; step <= stops.size(); ++step) {
         const double part = static_cast<double>(step + 1) / static_cast<double>(stops.size() + 1);
         std::vector<Complex> begin, end;
+        begin.reserve(pins.size());
+        end.reserve(pins.size());
         for (std::size_t i = 0; i < pins.size(); ++i) {
             begin.push_back(map[pins[i]]);
             end.push_back(step < stops.size() && stops[step][i] ? *stops[step][i]
