@@ -16,10 +16,11 @@ namespace beltrami {
 namespace {
 
 constexpr int kRounds = 40;
-constexpr int kRings = 2;        // around flipped faces, whose vertices are moved where theirs cannot be
-constexpr int kParts = 16;       // of the way, that are tried
-constexpr double kGain = 1e-6;   // of the badness of the worst face around a vertex
-constexpr double kFolded = 1e3;  // badness of a face with no area; of a flipped one more
+constexpr int kRings = 2;               // around flipped faces, whose vertices are moved where theirs cannot be
+constexpr int kParts = 16;              // of the way, that are tried
+constexpr std::size_t kMostFaces = 24;  // around a vertex that is moved
+constexpr double kGain = 1e-6;          // of the badness of the worst face around a vertex
+constexpr double kFolded = 1e3;         // badness of a face with no area; of a flipped one more
 
 /// A place of the disk in Klein's model, where geodesics are straight, and back.
 Complex in_klein(Complex z) {
@@ -30,20 +31,16 @@ Complex from_klein(Complex z) {
 }
 
 /// The edges around a vertex, seen from its image at 0 in Klein's model: a face lies on their left.
-struct Link {
-    std::vector<std::array<Complex, 2>> edges;
-    std::vector<int> corners;  ///< of the vertex in the faces
-};
+using Link = std::vector<std::array<Complex, 2>>;
 
 Link link_of(const Surface& source, const EquivariantMap& map, const std::vector<int>& corners) {
     Link link;
-    link.corners = corners;
-    link.edges.reserve(corners.size());
+    link.reserve(corners.size());
     for (const int corner : corners) {
         const int first = corner - corner % 3;
         const DiskIsometry there = step_at_corner(source, map, corner),
                            back = step_at_corner(source, map, first + (corner + 2) % 3);
-        link.edges.push_back({in_klein(there.place()), in_klein(back.inverse().place())});
+        link.push_back({in_klein(there.place()), in_klein(back.inverse().place())});
     }
     return link;
 }
@@ -55,11 +52,11 @@ double distance_from_line(const std::array<Complex, 2>& edge, Complex place) {
 
 /// Where the least distance from the lines is largest: of all places where three are equal, or, on the real axis, two.
 Complex farthest_from_lines(const Link& link, bool on_axis) {
-    const std::size_t n = link.edges.size();
+    const std::size_t n = link.size();
     // distance = h + g · place, of every line
     std::vector<Eigen::Vector3d> lines;
-    lines.reserve(n + 1);
-    for (const std::array<Complex, 2>& edge : link.edges) {
+    lines.reserve(n);
+    for (const std::array<Complex, 2>& edge : link) {
         const double at_zero = distance_from_line(edge, 0);
         lines.emplace_back(distance_from_line(edge, 1) - at_zero, distance_from_line(edge, Complex(0, 1)) - at_zero,
                            at_zero);
@@ -186,6 +183,7 @@ int open_folds(const Surface& source, EquivariantMap& map) {
     std::vector<char> moved(corners_at.size(), 0);
     const auto improve = [&](int v) {
         const std::vector<int>& corners = corners_at[static_cast<std::size_t>(v)];
+        if (corners.size() > kMostFaces) return false;
         const bool on_axis = source.topology.on_boundary[static_cast<std::size_t>(v)] != 0;
         const Complex place = from_klein(farthest_from_lines(link_of(source, map, corners), on_axis));
         const double size = std::abs(place);
