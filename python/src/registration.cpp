@@ -261,9 +261,9 @@ void bind_registration(py::module_& m) {
           (std::string(
                "The extremal map between two surfaces of genus 0 with equally many boundary loops that takes landmarks "
                "to their places; boundaries slide along each other.\n\nvertices, places and weights as of "
-               "register_spheres. check_inverse=True finds inverse_k. waypoints=[(step, vertex, vertex of the target), "
-               "…] "
-               "are ways of landmarks inside and choose the homotopy class.\n\n") +
+               "register_spheres. check_inverse=True finds inverse_k. waypoints=[(step, vertex, vertex of the "
+               "target)]: ways "
+               "of landmarks inside, which choose the homotopy class.\n\n") +
            kExtremalOptions)
               .c_str());
     m.def("register_least_lp", &least_lp, py::arg("source"), py::arg("target"), py::arg("vertices") = py::list(),

@@ -34,6 +34,7 @@ NOT_BOUND: Dict[str, str] = {
         SlackReport ExtremalPiece ProvedBounds SphereRegistration OpenRegistration LpRegistration HandleRegistration
         HandleMarking boundary_lengths DrawnSurface TransferredPolyline""",
     "is what register_handles does with search=True": "search_class ClassSearch",
+    "is what registration with curves does with extremal=True": "extremal_flow ExtremalFlowMap",
     "is the picture of deformed_picture, an array, and where it lies": "Picture Box",
     "is Places.interpolate with texture coordinates": "texture_at",
     "is a part of maps between hyperbolic surfaces, which register_handles puts together":
