@@ -32,18 +32,15 @@ std::vector<std::vector<double>> lengths_of_loops(const Surface& s) {
     return lengths;
 }
 
-/// The diagnosis beside topology and operators, which do not need it: of both failures the diagnosis's is thrown.
+/// Topology beside operators; of sound meshes alone, as neither looks where what it reads may not be.
 template <class MakeOperators>
 void examine(Surface& s, MakeOperators&& make_operators) {
-    const auto in_space = s.mesh.positions.cols();
-    if (s.mesh.vertex_count() == 0 || (in_space != 2 && in_space != 3)) s.findings = require_sound(s.mesh);
+    s.findings = require_sound(s.mesh);
     parallel_for_each(2, [&](int part) {
-        if (part == 0) {
-            s.findings = require_sound(s.mesh);
-            return;
-        }
-        s.topology = topology(s.mesh);
-        s.operators = make_operators();
+        if (part == 0)
+            s.topology = topology(s.mesh);
+        else
+            s.operators = make_operators();
     });
 }
 
