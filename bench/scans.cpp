@@ -120,8 +120,13 @@ void measure(const std::string& name, const Mesh& mesh) {
 
 /// The mesh as it is, and divided until it is large.
 void measure_sizes(const std::string& name, Mesh mesh) {
-    if (topology(mesh).boundary_loops.size() != 1) {
-        fmt::print("| {} | no plane cuts one opening |\n", name);
+    try {
+        if (topology(mesh).boundary_loops.size() != 1) {
+            fmt::print("| {} | no plane cuts one opening |\n", name);
+            return;
+        }
+    } catch (const Error& error) {
+        fmt::print("| {} | {} |\n", name, error.what());
         return;
     }
     measure(name, mesh);
