@@ -55,7 +55,8 @@ double estimate_without_crushed(const Surface& source, const Eigen::VectorXcd& p
     for (const Eigen::Index s : order) total += mass(s);
     for (const Eigen::Index s : order) {
         held = std::abs(mu[s]);
-        if ((left_out += mass(s)) > kCrushedPart * total) break;
+        left_out += mass(s);
+        if (left_out > kCrushedPart * total) break;
     }
     double norm = 0, pairing = 0;
     for (Eigen::Index s = 0; s < mu.size(); ++s) {

@@ -155,9 +155,9 @@ TransferredPolyline transferred_polyline(const SurfaceCorrespondence& map, std::
         std::vector<Piece> finer;
         finer.reserve(pieces.size() + middles.size());
         std::size_t next = 0;
-        for (Piece& piece : pieces) {
+        for (const Piece& piece : pieces) {
             if (same_triangle(piece.image, piece.image_of_end)) {
-                finer.push_back(std::move(piece));
+                finer.push_back(piece);
                 continue;
             }
             finer.push_back({piece.part, piece.from, middles[next], piece.image, found[next]});
