@@ -73,12 +73,14 @@ bool meet(const Segment& a, const Segment& b, const Target& target) {
 void require_apart(const Target& target, const PartnerCurves& curves) {
     const auto segments_of = [&](const MeshWithCurves::Chain& chain) {
         std::vector<Segment> segments;
+        segments.reserve(chain.vertices.size());
         for (std::size_t i = chain.closed ? 0 : 1; i < chain.vertices.size(); ++i)
             segments.push_back({curves.points.row(chain.vertices[i == 0 ? chain.vertices.size() - 1 : i - 1]),
                                 curves.points.row(chain.vertices[i])});
         return segments;
     };
     std::vector<std::vector<Segment>> all;
+    all.reserve(curves.chains.size());
     for (const MeshWithCurves::Chain& chain : curves.chains) all.push_back(segments_of(chain));
     for (std::size_t c = 0; c < all.size(); ++c)
         for (std::size_t d = 0; d <= c; ++d)
