@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <beltrami/curves/straight_path.h>
+#include <beltrami/locate/point_at.h>
 
 namespace beltrami {
 
@@ -31,12 +32,6 @@ bool same_triangle(const MeshPoint& a, const MeshPoint& b) {
     std::sort(first.begin(), first.end());
     std::sort(second.begin(), second.end());
     return a.face == b.face && first == second;
-}
-
-Eigen::Vector3d point_of(const Mesh& mesh, const MeshPoint& place) {
-    Eigen::Vector3d point = Eigen::Vector3d::Zero();
-    for (int i = 0; i < 3; ++i) point += place.barycentric[i] * mesh.point(place.vertices[i]);
-    return point;
 }
 
 MeshPoint halfway(const MeshPoint& a, const MeshPoint& b) {
@@ -175,9 +170,9 @@ TransferredPolyline transferred_polyline(const SurfaceCorrespondence& map, std::
         const bool begins = i == 0 || pieces[i - 1].part != pieces[i].part;
         const bool at_edge = i > 0 && !same_triangle(pieces[i - 1].image, pieces[i - 1].image_of_end);
         if (!begins && !at_edge) continue;
-        const Eigen::Vector3d point = point_of(to, pieces[i].image);
+        const Eigen::Vector3d point = point_at(to, pieces[i].image);
         if (result.places.empty() || (point - last).norm() > kApart * size) result.places.push_back(pieces[i].image);
-        last = point_of(to, result.places.back());
+        last = point_at(to, result.places.back());
         if (const int given = parts[pieces[i].part].given; begins && given >= 0)
             result.given[given] = static_cast<int>(result.places.size()) - 1;
     }

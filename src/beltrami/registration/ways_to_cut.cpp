@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <beltrami/base/error.h>
+#include <beltrami/locate/point_at.h>
 
 namespace beltrami {
 
@@ -27,12 +28,6 @@ MeshWithCurves of_surface(const char* name, const Mesh& mesh, std::span<const Cu
     } catch (const Error& error) {
         throw Error(error.cause(), std::string("the ") + name + ": " + error.what(), {}, error.where());
     }
-}
-
-Eigen::Vector3d point_at(const Mesh& mesh, const MeshPoint& place) {
-    Eigen::Vector3d point = Eigen::Vector3d::Zero();
-    for (int i = 0; i < 3; ++i) point += place.barycentric[i] * mesh.point(place.vertices[i]);
-    return point;
 }
 
 /// Open curves one after the other as one, joined from end to beginning, and the closed ones.
