@@ -3,8 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/QR>
-
+#include <beltrami/linear/decomposition.h>
 #include <beltrami/mesh/planar.h>
 #include <beltrami/mesh/subdivide.h>
 #include <beltrami/mesh/topology.h>
@@ -58,7 +57,7 @@ DiskStretch::DiskStretch(double k) : k_(k), radius_(std::exp(std::abs(k))) {
     }
     Eigen::MatrixXd parts(kPoints, 2 * kDegree + 1);
     parts << basis.real(), -basis.imag().rightCols(kDegree);
-    const Eigen::VectorXd solution = parts.colPivHouseholderQr().solve(wanted);
+    const Eigen::VectorXd solution = least_squares(parts, wanted);
     for (int j = 0; j <= kDegree; ++j) coefficients_.emplace_back(solution[j], j == 0 ? 0.0 : solution[kDegree + j]);
     residual_ = (parts * solution - wanted).cwiseAbs().maxCoeff();
     one_ = onto_circle(1);

@@ -5,10 +5,9 @@
 #include <optional>
 #include <string>
 
-#include <Eigen/QR>
-
 #include <beltrami/base/error.h>
 #include <beltrami/base/parallel.h>
+#include <beltrami/linear/decomposition.h>
 #include <beltrami/locate/planar_locator.h>
 
 namespace beltrami {
@@ -131,7 +130,7 @@ class SmoothInverse {
                 rows.row(i) *= weight;
                 wanted.row(i) *= weight;
             }
-            const Eigen::MatrixXd c = Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(rows).solve(wanted);
+            const Eigen::MatrixXd c = least_squares(rows, wanted);
             value_[v] = own[v] + (held ? Complex(0) : Complex(c(0, 0), c(0, 1)));
             for (int i = 0; i < 2; ++i) along_(v, i) = Complex(c(i + 1, 0), c(i + 1, 1)) / size;
         }

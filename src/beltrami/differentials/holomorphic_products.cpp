@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
+#include <beltrami/linear/decomposition.h>
 
 namespace beltrami {
 
@@ -39,11 +39,10 @@ std::optional<TabulatedSpace> holomorphic_products(const Surface& source, const 
     for (int i = 0, count = 0; i < 2; ++i)
         for (int j = i; j < 2; ++j)
             products.col(count++) = (roots.asDiagonal() * forms.col(i).cwiseProduct(forms.col(j))).normalized();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> gram(products.adjoint() * products);
-    const Eigen::VectorXd& squares = gram.eigenvalues();
+    const HermitianEigen gram = hermitian_eigen(products.adjoint() * products);
+    const Eigen::VectorXd& squares = gram.values;
     if (!(squares[0] > kLeastSingularValue * kLeastSingularValue * squares[2])) return {};
-    const Eigen::MatrixXcd orthonormal =
-        products * gram.eigenvectors() * squares.cwiseSqrt().cwiseInverse().asDiagonal();
+    const Eigen::MatrixXcd orthonormal = products * gram.vectors * squares.cwiseSqrt().cwiseInverse().asDiagonal();
     return TabulatedSpace(roots.cwiseInverse().asDiagonal() * orthonormal, Coefficients::complex);
 }
 

@@ -6,12 +6,10 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
-
 #include <beltrami/base/error.h>
 #include <beltrami/base/random.h>
 #include <beltrami/hyperbolic/face_chart.h>
+#include <beltrami/linear/decomposition.h>
 #include <beltrami/linear/element_system.h>
 
 namespace beltrami {
@@ -127,34 +125,19 @@ class DbarSystem {
 
 /// Columns made orthonormal, by combinations with complex or with real coefficients.
 Eigen::MatrixXcd orthonormal(const Eigen::MatrixXcd& columns, Coefficients coefficients) {
-    if (coefficients == Coefficients::complex) {
-        const Eigen::HouseholderQR<Eigen::MatrixXcd> qr(columns);
-        return qr.householderQ() * Eigen::MatrixXcd::Identity(columns.rows(), columns.cols());
-    }
+    if (coefficients == Coefficients::complex) return complex_qr(columns).Q;
     Eigen::MatrixXd pairs(2 * columns.rows(), columns.cols());
     pairs << columns.real(), columns.imag();
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(pairs);
-    pairs = qr.householderQ() * Eigen::MatrixXd::Identity(pairs.rows(), pairs.cols());
+    pairs = orthonormal_columns(pairs);
     return pairs.topRows(columns.rows()) + Complex(0, 1) * pairs.bottomRows(columns.rows());
 }
 
 /// Eigenvalues and eigenvectors of a pencil; of its real part where only real combinations are wanted.
-struct Ritz {
-    Eigen::VectorXd values;
-    Eigen::MatrixXcd vectors;
-
-    Ritz(const Eigen::MatrixXcd& energy, const Eigen::MatrixXcd& mass, Coefficients coefficients) {
-        if (coefficients == Coefficients::complex) {
-            const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXcd> found(energy, mass);
-            values = found.eigenvalues();
-            vectors = found.eigenvectors();
-        } else {
-            const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> found(energy.real(), mass.real());
-            values = found.eigenvalues();
-            vectors = found.eigenvectors().cast<Complex>();
-        }
-    }
-};
+HermitianEigen pencil_eigen(const Eigen::MatrixXcd& energy, const Eigen::MatrixXcd& mass, Coefficients coefficients) {
+    if (coefficients == Coefficients::complex) return hermitian_eigen(energy, mass);
+    const SymmetricEigen real = symmetric_eigen(energy.real(), mass.real());
+    return {real.values, real.vectors.cast<Complex>()};
+}
 
 /// Values in the faces' own frames, orthonormal in L² of the surface.
 Eigen::MatrixXcd on_faces(const Surface& source, const std::vector<FaceOperator>& faces, const Eigen::MatrixXcd& x,
@@ -194,7 +177,7 @@ HyperbolicSpace hyperbolic_space(const Surface& source, const HyperbolicSurface&
     for (int round = 0; round < kMostRounds; ++round) {
         x = system.inverse(x);
         result.solves += static_cast<int>(x.cols());
-        const Ritz ritz(system.energy_product(x), system.mass_product(x), coefficients);
+        const HermitianEigen ritz = pencil_eigen(system.energy_product(x), system.mass_product(x), coefficients);
         x = (x * ritz.vectors).eval();
         const double moved = (ritz.values - values).head(dimension).cwiseAbs().maxCoeff();
         values = ritz.values;

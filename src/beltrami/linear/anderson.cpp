@@ -1,6 +1,6 @@
 #include <beltrami/linear/anderson.h>
 
-#include <Eigen/QR>
+#include <beltrami/linear/decomposition.h>
 
 namespace beltrami {
 
@@ -23,7 +23,7 @@ Eigen::VectorXd AndersonAcceleration::next(const Eigen::VectorXd& x, const Eigen
 
     Eigen::MatrixXd R(g.size(), m);
     for (Eigen::Index j = 0; j < m; ++j) R.col(j) = residual_differences_[static_cast<std::size_t>(j)];
-    const Eigen::VectorXd gamma = R.completeOrthogonalDecomposition().solve(residual);
+    const Eigen::VectorXd gamma = least_squares(R, residual);
     Eigen::VectorXd result = g;
     for (Eigen::Index j = 0; j < m; ++j) result -= gamma[j] * g_differences_[static_cast<std::size_t>(j)];
     return result.allFinite() ? result : g;

@@ -1,6 +1,7 @@
 #include <beltrami/linear/decomposition.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
@@ -9,6 +10,10 @@ namespace beltrami {
 namespace {
 
 using Svd = Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::HouseholderQRPreconditioner>;
+template <typename Matrix>
+using OwnEigen = Eigen::SelfAdjointEigenSolver<Matrix>;
+template <typename Matrix>
+using PencilEigen = Eigen::GeneralizedSelfAdjointEigenSolver<Matrix>;
 
 }  // namespace
 
@@ -33,8 +38,33 @@ RightSingular right_singular(const Eigen::MatrixXd& A) {
 }
 
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& lower) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(lower);
+    const OwnEigen<Eigen::MatrixXd> eigen(lower);
     return {eigen.eigenvalues(), eigen.eigenvectors()};
+}
+
+SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
+    const PencilEigen<Eigen::MatrixXd> eigen(A, B);
+    return {eigen.eigenvalues(), eigen.eigenvectors()};
+}
+
+HermitianEigen hermitian_eigen(const Eigen::MatrixXcd& lower) {
+    const OwnEigen<Eigen::MatrixXcd> eigen(lower);
+    return {eigen.eigenvalues(), eigen.eigenvectors()};
+}
+
+HermitianEigen hermitian_eigen(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& B) {
+    const PencilEigen<Eigen::MatrixXcd> eigen(A, B);
+    return {eigen.eigenvalues(), eigen.eigenvectors()};
+}
+
+Eigen::MatrixXd matrix_inverse(const Eigen::MatrixXd& A) {
+    return A.inverse();
+}
+
+Eigen::MatrixXd least_squares(const Eigen::MatrixXd& A, const Eigen::MatrixXd& b, double threshold) {
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
+    if (threshold > 0) decomposition.setThreshold(threshold);
+    return decomposition.compute(A).solve(b);
 }
 
 }  // namespace beltrami

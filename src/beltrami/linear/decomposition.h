@@ -40,4 +40,27 @@ struct SymmetricEigen {
 /// Eigenvalues and eigenvectors of a symmetric matrix, of which the lower triangle is read.
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& lower);
 
+/// A x = λ B x.
+/// @param A  symmetric; the lower triangle is read, as of B
+/// @param B  symmetric and positive definite
+/// @returns vectors that are orthonormal with respect to B
+SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
+
+struct HermitianEigen {
+    Eigen::VectorXd values;    ///< ascending
+    Eigen::MatrixXcd vectors;  ///< orthonormal, in columns
+};
+
+/// Likewise of Hermitian matrices.
+HermitianEigen hermitian_eigen(const Eigen::MatrixXcd& lower);
+HermitianEigen hermitian_eigen(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& B);
+
+/// Of a square matrix of full rank, by elimination with row pivots.
+Eigen::MatrixXd matrix_inverse(const Eigen::MatrixXd& A);
+
+/// The x of least norm among those that make |A x − b| least, by a complete orthogonal decomposition.
+/// @param b  as many rows as A; each column is a problem of its own
+/// @param threshold  of the largest pivot, below which one counts as 0; 0: rounding's own
+Eigen::MatrixXd least_squares(const Eigen::MatrixXd& A, const Eigen::MatrixXd& b, double threshold = 0);
+
 }  // namespace beltrami

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/LU>
-
 #include <beltrami/base/error.h>
 #include <beltrami/charts/chart.h>
+#include <beltrami/linear/decomposition.h>
 
 namespace beltrami {
 
@@ -58,7 +57,7 @@ Eigen::VectorXd SoftPins::gradient() const {
     Eigen::MatrixXd kernel(n, n);
     for (Eigen::Index i = 0; i < n; ++i)
         for (Eigen::Index j = 0; j < n; ++j) kernel(i, j) = std::exp(-scale * std::norm(places_[i] - places_[j]));
-    const Eigen::MatrixXd weights = kernel.inverse();
+    const Eigen::MatrixXd weights = matrix_inverse(kernel);
     const MapDerivatives map = derivatives(source_.operators, map_.map);
     const Eigen::VectorXcd at = at_samples(source_.operators, map_.map);
     Eigen::VectorXcd moments = Eigen::VectorXcd::Zero(n);  // Σ A φ conj(p)/p ∂̄ of each Gaussian

@@ -5,9 +5,9 @@
 #include <limits>
 
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 
 #include <beltrami/base/parallel.h>
+#include <beltrami/linear/decomposition.h>
 #include <beltrami/sphere/unit_sphere.h>
 
 namespace beltrami {
@@ -75,9 +75,7 @@ LandmarkField::LandmarkField(Positions landmarks, const Positions& velocities, d
                 std::exp(-scale_ * (landmarks_.row(i) - landmarks_.row(j)).squaredNorm()) * tangential;
         right.segment<3>(3 * i) = velocities.row(i).transpose();
     }
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
-    decomposition.setThreshold(kRank);
-    const Eigen::VectorXd solution = decomposition.compute(matrix).solve(right);
+    const Eigen::VectorXd solution = least_squares(matrix, right, kRank);
     weights_ = Eigen::Map<const Positions>(solution.data(), n, 3);
 }
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 
 #include <beltrami/base/error.h>
 #include <beltrami/coefficient/coefficient_step.h>
@@ -16,6 +16,7 @@
 #include <beltrami/hyperbolic/equivariant_map_step.h>
 #include <beltrami/hyperbolic/fold_opening.h>
 #include <beltrami/hyperbolic/hyperbolic_places.h>
+#include <beltrami/linear/decomposition.h>
 #include <beltrami/teichmuller/hamilton.h>
 
 namespace beltrami {
@@ -120,9 +121,8 @@ double homology_bound(const HyperbolicShape& source, const HyperbolicShape& targ
                     "the start is not of degree 1: it does not keep the intersection numbers of loops",
                     "bring the source nearer to the target (by an alignment, say), tell the class by a start or by "
                     "loops, or turn the faces of one surface round");
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> ratios(
-        target.forms().energies, P.transpose() * source.forms().energies * P, Eigen::EigenvaluesOnly);
-    const Eigen::VectorXd& values = ratios.eigenvalues();
+    const Eigen::VectorXd values =
+        symmetric_eigen(target.forms().energies, P.transpose() * source.forms().energies * P).values;
     return std::max(values[values.size() - 1], 1 / values[0]);
 }
 

@@ -79,5 +79,44 @@ TEST(Decomposition, SymmetricEigenReadsTheLowerTriangle) {
     EXPECT_LT((whole * vectors - vectors * values.asDiagonal()).norm(), 1e-13);
 }
 
+TEST(Decomposition, EigenvaluesOfAPencilAreThoseItWasMadeOf) {
+    const int n = 12;
+    const Eigen::VectorXd known = Eigen::VectorXd::LinSpaced(n, -2, 3);
+    const Eigen::MatrixXd C = random_matrix(n, n, 6), vectors = matrix_inverse(C).transpose();
+    const SymmetricEigen real = symmetric_eigen(C * known.asDiagonal() * C.transpose(), C * C.transpose());
+    EXPECT_LT((real.values - known).norm(), 1e-12);
+    EXPECT_LT((real.vectors.transpose() * C * C.transpose() * real.vectors - Eigen::MatrixXd::Identity(n, n)).norm(),
+              1e-12);
+    for (int j = 0; j < n; ++j)
+        EXPECT_NEAR(std::abs(real.vectors.col(j).normalized().dot(vectors.col(j).normalized())), 1, 1e-12);
+
+    Eigen::MatrixXcd D(n, n);
+    D.real() = C;
+    D.imag() = random_matrix(n, n, 7);
+    const HermitianEigen complex =
+        hermitian_eigen(D * known.cast<std::complex<double>>().asDiagonal() * D.adjoint(), D * D.adjoint());
+    EXPECT_LT((complex.values - known).norm(), 1e-12);
+    EXPECT_LT(distance_from_orthonormal(D.adjoint() * complex.vectors), 1e-12);
+    const Eigen::MatrixXcd Q = complex_qr(D).Q;
+    const HermitianEigen own = hermitian_eigen(Q * known.cast<std::complex<double>>().asDiagonal() * Q.adjoint());
+    EXPECT_LT((own.values - known).norm(), 1e-13);
+    EXPECT_LT(distance_from_orthonormal(own.vectors), 1e-13);
+}
+
+TEST(Decomposition, LeastSquaresAreOfLeastNormWhereTheColumnsDepend) {
+    Eigen::MatrixXd A = random_matrix(40, 6, 8);
+    const Eigen::MatrixXd x = random_matrix(6, 2, 9), orthogonal = random_matrix(40, 2, 10);
+    const Eigen::MatrixXd Q = orthonormal_columns(A);
+    EXPECT_LT((least_squares(A, A * x + orthogonal - Q * (Q.transpose() * orthogonal)) - x).norm(), 1e-13);
+    A.col(5) = A.col(2);  // the two share what one of them had
+    const Eigen::MatrixXd shared = least_squares(A, A.leftCols(5) * x.topRows(5));
+    EXPECT_LT((shared.row(5) - 0.5 * x.row(2)).norm(), 1e-13);
+    EXPECT_LT((shared.row(2) - 0.5 * x.row(2)).norm(), 1e-13);
+    // Two columns that differ by less than the threshold are taken for one.
+    A.col(5) += 1e-3 * random_matrix(40, 1, 11);
+    EXPECT_LT(least_squares(A, orthogonal, 1e-2).norm(), 10);
+    EXPECT_GT(least_squares(A, orthogonal).norm(), 50);
+}
+
 }  // namespace
 }  // namespace beltrami
