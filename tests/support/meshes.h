@@ -20,6 +20,17 @@ inline Eigen::VectorXcd complex_positions(const Mesh& mesh) {
     return z;
 }
 
+/// By inverse stereographic projection, which is conformal.
+inline Mesh on_sphere(const Mesh& mesh) {
+    Mesh result = mesh;
+    result.positions.resize(mesh.vertex_count(), 3);
+    for (int v = 0; v < mesh.vertex_count(); ++v) {
+        const double x = mesh.positions(v, 0), y = mesh.positions(v, 1), n = x * x + y * y;
+        result.positions.row(v) << 2 * x / (1 + n), 2 * y / (1 + n), (n - 1) / (1 + n);
+    }
+    return result;
+}
+
 /// The unit square in n×n cells; a cell becomes one quad or two triangles, as the function of its column and row says.
 /// Inner vertices are moved by up to `amount` of a cell, deterministically.
 inline Mesh square(int n, double amount, const std::function<bool(int, int)>& as_quad) {

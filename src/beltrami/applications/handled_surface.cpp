@@ -34,13 +34,6 @@ std::vector<std::map<int, double>> laplacian_rows(const Operators& operators) {
     return rows;
 }
 
-Eigen::VectorXd vertex_areas(const Operators& operators) {
-    Eigen::VectorXd areas = Eigen::VectorXd::Zero(operators.vertex_count);
-    for (int s = 0; s < operators.sample_count(); ++s)
-        for (const int v : operators.stencil(s)) areas[v] += operators.weights[s] / 3;
-    return areas;
-}
-
 /// Lower triangle of the matrix l lᵀ scaled.
 std::vector<double> outer_product(const std::vector<double>& l, double scale) {
     std::vector<double> lower;

@@ -64,15 +64,6 @@ double unseen_part(const Surface& source, const Chart& chart) {
     return areas[1] / areas[0];
 }
 
-Eigen::VectorXd vertex_areas(const Operators& operators) {
-    Eigen::VectorXd area = Eigen::VectorXd::Zero(operators.vertex_count);
-    for (int s = 0; s < operators.sample_count(); ++s) {
-        const auto stencil = operators.stencil(s);
-        for (const int v : stencil) area[v] += operators.weights[s] / static_cast<double>(stencil.size());
-    }
-    return area;
-}
-
 namespace {
 
 /// Derivatives, positions at the samples and excluded samples of values that the operators read.

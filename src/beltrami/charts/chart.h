@@ -55,7 +55,4 @@ bool unseen(const Operators& operators, int sample, const Chart& chart);
 /// Values at the samples of a function given at the vertices: linear on triangles, bilinear on quads.
 Eigen::VectorXcd at_samples(const Operators& operators, const Eigen::VectorXcd& values);
 
-/// Each vertex' share of the source's area: equal parts of the samples of its faces.
-Eigen::VectorXd vertex_areas(const Operators& operators);
-
 }  // namespace beltrami

@@ -244,6 +244,15 @@ Operators per_corner(const Operators& operators, const FaceList& faces) {
     return result;
 }
 
+Eigen::VectorXd vertex_areas(const Operators& operators) {
+    Eigen::VectorXd area = Eigen::VectorXd::Zero(operators.vertex_count);
+    for (int s = 0; s < operators.sample_count(); ++s) {
+        const auto stencil = operators.stencil(s);
+        for (const int v : stencil) area[v] += operators.weights[s] / static_cast<double>(stencil.size());
+    }
+    return area;
+}
+
 Positions texture_corners(const Mesh& mesh) {
     if (!mesh.texture)
         throw Error(Cause::bad_mesh, "the mesh has no texture coordinates", "give a file with vt, or another map");

@@ -85,6 +85,9 @@ Operators operators_from_corners(const Mesh& mesh, const Positions& corners);
 /// with seams can be measured.
 Operators per_corner(const Operators& operators, const FaceList& faces);
 
+/// Each vertex' share of the source's area: equal parts of the samples of its faces.
+Eigen::VectorXd vertex_areas(const Operators& operators);
+
 /// Positions of the texture point of every corner (#corners×2).
 /// @throw Error bad_mesh if the mesh has no texture coordinates, a corner lacks one or one is not finite
 Positions texture_corners(const Mesh& mesh);

@@ -32,21 +32,10 @@ constexpr double kBarrierFull = 0.4;
 constexpr double kUnresolved = 1e-13;
 constexpr double kOffCentre = 1e-6;
 
-/// A third (quarter) of the area of each face at every vertex.
-Eigen::VectorXd vertex_areas(const Surface& source) {
-    const Operators& operators = source.operators;
-    Eigen::VectorXd areas = Eigen::VectorXd::Zero(operators.vertex_count);
-    for (int s = 0; s < operators.sample_count(); ++s) {
-        const auto stencil = operators.stencil(s);
-        for (const int v : stencil) areas[v] += operators.weights[s] / static_cast<double>(stencil.size());
-    }
-    return areas;
-}
-
 class Mapping {
   public:
     Mapping(const Surface& source, const SphereMapOptions& options)
-        : source_(source), options_(options), faces_(source), areas_(vertex_areas(source)) {}
+        : source_(source), options_(options), faces_(source), areas_(vertex_areas(source.operators)) {}
 
     SphereMap run() {
         bool found = false;

@@ -45,17 +45,6 @@ Mesh mapped(Mesh mesh, const Map& map) {
     return mesh;
 }
 
-/// By inverse stereographic projection, which is conformal.
-Mesh on_sphere(const Mesh& mesh) {
-    Mesh result = mesh;
-    result.positions.resize(mesh.vertex_count(), 3);
-    for (int v = 0; v < mesh.vertex_count(); ++v) {
-        const double x = mesh.positions(v, 0), y = mesh.positions(v, 1), n = x * x + y * y;
-        result.positions.row(v) << 2 * x / (1 + n), 2 * y / (1 + n), (n - 1) / (1 + n);
-    }
-    return result;
-}
-
 std::vector<RoundHole> truth() {
     std::vector<RoundHole> holes;
     for (const Circle& circle : kCircles) holes.push_back({-1, centre_of(circle), circle.radius});
@@ -137,7 +126,7 @@ TEST(CircleDomainChart, OfAConformalImageHasTheModuliOfTheOriginalToSecondOrder)
     for (const bool in_space : {false, true}) {
         double coarse = 0;
         for (const double h : {0.1, 0.05, 0.025}) {
-            const Surface source(in_space ? on_sphere(three_holes(h)) : mapped(three_holes(h), wavy));
+            const Surface source(in_space ? test::on_sphere(three_holes(h)) : mapped(three_holes(h), wavy));
             const CircleDomainChart chart = circle_domain_chart(source);
             check(source, chart, 0);
             EXPECT_FALSE(chart.chart.exact);
@@ -153,7 +142,7 @@ TEST(CircleDomainChart, OfAConformalImageHasTheModuliOfTheOriginalToSecondOrder)
 }
 
 TEST(CircleDomainChart, AnyLoopCanBeTheOuterOne) {
-    const Surface coarse(on_sphere(three_holes(0.05))), fine(on_sphere(three_holes(0.0125)));
+    const Surface coarse(test::on_sphere(three_holes(0.05))), fine(test::on_sphere(three_holes(0.0125)));
     // A hole's chords lie outside the surface's own domain, the unit circle's inside: the errors of the two polygons,
     // about (π/25)² here, add up.
     for (int outer = 1; outer < 4; ++outer) {
@@ -195,7 +184,7 @@ TEST(CircleDomainChart, StaysExactWhereAnAnalyticMapMakesTheHolesRound) {
 }
 
 TEST(CircleDomainChart, LowersTheConformalEnergyToAMinimum) {
-    const Surface source(on_sphere(three_holes(0.1)));
+    const Surface source(test::on_sphere(three_holes(0.1)));
     const CircleDomainChart chart = circle_domain_chart(source);
     const auto energy = [&](const Eigen::VectorXcd& f) {
         double sum = 0;
@@ -225,7 +214,7 @@ TEST(CircleDomainChart, LowersTheConformalEnergyToAMinimum) {
 }
 
 TEST(CircleDomainChart, DoesNotDependOnPlaceSizeOrNumbering) {
-    const Mesh mesh = on_sphere(three_holes(0.1));
+    const Mesh mesh = test::on_sphere(three_holes(0.1));
     const CircleDomainChart chart = circle_domain_chart(Surface(mesh));
     Mesh moved = mesh;
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
@@ -249,7 +238,7 @@ TEST(CircleDomainChart, DoesNotDependOnPlaceSizeOrNumbering) {
 }
 
 TEST(CircleDomainChart, IsTheSameForAnyNumberOfThreads) {
-    const Surface source(on_sphere(three_holes(0.025)));
+    const Surface source(test::on_sphere(three_holes(0.025)));
     const int before = thread_count();
     set_thread_count(1);
     const CircleDomainChart one = circle_domain_chart(source);
@@ -280,7 +269,7 @@ TEST(CircleDomainChart, ReadsQuadsAndAMetricOfItsOwn) {
 
     // The metric decides, not the positions.
     const Mesh flat = three_holes(0.05);
-    Mesh bent = on_sphere(flat);
+    Mesh bent = test::on_sphere(flat);
     bent.positions.col(2) *= 2;
     const Surface source(bent, corner_positions(flat));
     const CircleDomainChart by_metric = circle_domain_chart(source);
@@ -301,7 +290,7 @@ TEST(CircleDomainChart, OfADiskIsTheRoundDisk) {
 
 TEST(CircleDomainChart, NamesFacesThatNoCircleDomainHasRoomFor) {
     // A triangle set onto two edges of a hole's rim, where they turn away from it least.
-    Mesh mesh = on_sphere(three_holes(0.1));
+    Mesh mesh = test::on_sphere(three_holes(0.1));
     const Topology shape = topology(mesh);
     const auto& rim = shape.boundary_loops[1];
     mesh.faces.add({rim[1], rim[0], rim[2]});
@@ -313,7 +302,7 @@ TEST(CircleDomainChart, NamesFacesThatNoCircleDomainHasRoomFor) {
 
     // Three vertices of one rim: the ear of a face with a vertex of its own.
     const int tip = mesh.vertex_count();
-    Mesh eared = on_sphere(three_holes(0.1));
+    Mesh eared = test::on_sphere(three_holes(0.1));
     Positions positions(tip + 1, 3);
     positions.topRows(tip) = eared.positions;
     positions.row(tip) =
@@ -371,7 +360,7 @@ TEST(CircleDomainChart, RefusesWhatHasNone) {
     options = {};
     options.least_gap = 1.2;
     EXPECT_EQ(cause(source, 0, options), Cause::not_solved);
-    EXPECT_EQ(cause(Surface(on_sphere(three_holes(0.1))), 0, options), Cause::not_solved);
+    EXPECT_EQ(cause(Surface(test::on_sphere(three_holes(0.1))), 0, options), Cause::not_solved);
 }
 
 TEST(CircleDomainChart, HolesCloseToEachOtherAndToTheRim) {
@@ -379,7 +368,7 @@ TEST(CircleDomainChart, HolesCloseToEachOtherAndToTheRim) {
     meshing.edge_length = 0.08;
     meshing.hole_edge_length = 0.01;
     const std::vector<Circle> close = {{{-0.21, 0}, 0.2}, {{0.21, 0}, 0.2}, {{0, 0.74}, 0.24}};
-    const Surface source(on_sphere(circle_domain({}, close, meshing)));
+    const Surface source(test::on_sphere(circle_domain({}, close, meshing)));
     const CircleDomainChart chart = circle_domain_chart(source);
     check(source, chart, 0);
     std::vector<RoundHole> known;

@@ -48,17 +48,6 @@ Mesh lifted(Mesh mesh) {
     return mesh;
 }
 
-/// By inverse stereographic projection, which is conformal.
-Mesh on_sphere(Mesh mesh) {
-    Positions points(mesh.vertex_count(), 3);
-    for (int v = 0; v < mesh.vertex_count(); ++v) {
-        const double x = mesh.positions(v, 0), y = mesh.positions(v, 1), n = x * x + y * y;
-        points.row(v) << 2 * x / (1 + n), 2 * y / (1 + n), (n - 1) / (1 + n);
-    }
-    mesh.positions = points;
-    return mesh;
-}
-
 std::vector<Complex> rim(const Surface& source, const Chart& chart, int loop) {
     std::vector<Complex> points;
     for (const int v : source.topology.boundary_loops[loop]) points.push_back(chart.vertices[v]);
@@ -276,7 +265,7 @@ TEST(DomainChart, HolesOfACurvedSurfaceConvergeWithSecondOrder) {
             mesh_options.edge_length = h;
             mesh_options.least_hole_edges = static_cast<int>(1.8 / h);
             const Mesh flat = circle_domain({}, holes, mesh_options);
-            const Surface source(on_sphere(flat));
+            const Surface source(test::on_sphere(flat));
             const Chart chart = domain_chart(source, 0, nullptr, options);
             check_chart(source, chart, 0);
             EXPECT_EQ(chart.excluded_faces, 0);
@@ -382,7 +371,7 @@ TEST(AnnulusMap, IsExactUpToSecondOrder) {
             const Complex z(mesh.positions(v, 0), mesh.positions(v, 1)), w = (z + a) / (1.0 + a * z);
             mesh.positions.row(v) << w.real(), w.imag();
         }
-        const Surface source(on_sphere(mesh));
+        const Surface source(test::on_sphere(mesh));
         const int outer = std::abs(Complex(mesh.positions(source.topology.boundary_loops[0][0], 0),
                                            mesh.positions(source.topology.boundary_loops[0][0], 1))) > 0.99
                               ? 0

@@ -34,17 +34,6 @@ Mesh mapped(Mesh mesh, const Map& map) {
     return mesh;
 }
 
-/// By inverse stereographic projection, which is conformal.
-Mesh on_sphere(const Mesh& mesh) {
-    Mesh result = mesh;
-    result.positions.resize(mesh.vertex_count(), 3);
-    for (int v = 0; v < mesh.vertex_count(); ++v) {
-        const double x = mesh.positions(v, 0), y = mesh.positions(v, 1), n = x * x + y * y;
-        result.positions.row(v) << 2 * x / (1 + n), 2 * y / (1 + n), (n - 1) / (1 + n);
-    }
-    return result;
-}
-
 /// Normalised, with these circles in the order of the mesh's loops.
 std::vector<double> moduli_of(const Mesh& mesh, const std::vector<Circle>& circles) {
     const Surface surface(mesh);
@@ -99,7 +88,7 @@ TEST(Uniformization, ModulesOfRingsConverge) {
     std::vector<double> errors;
     for (const double h : {0.12, 0.06, 0.03}) {
         const Mesh ring = mapped(domain({{{0, 0}, 0.35}}, h), [](Complex z) { return z + 0.12 * z * z; });
-        const Surface surface(on_sphere(ring));
+        const Surface surface(test::on_sphere(ring));
         const Uniformization found = uniformization(surface);
         expect_normalised(surface, found);
         ASSERT_TRUE(found.module);
@@ -124,7 +113,7 @@ TEST(Uniformization, ModuliOfThreeHolesConverge) {
     std::vector<double> errors;
     for (const double h : {0.1, 0.05, 0.025}) {
         const Mesh flat = domain(kRoundHoles, h);
-        const Surface surface(on_sphere(flat));
+        const Surface surface(test::on_sphere(flat));
         // The same loop is the outer one in space as in the plane.
         ASSERT_EQ(surface.topology.boundary_loops[0], Surface(flat).topology.boundary_loops[0]);
         const Uniformization found = uniformization(surface);

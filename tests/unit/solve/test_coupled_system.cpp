@@ -11,11 +11,11 @@ namespace beltrami {
 namespace {
 
 /// Random positive definite derivatives of every sample, in the system and in dense matrices.
-struct Random {
+struct RandomParts {
     Eigen::MatrixXd hessian;
     Eigen::VectorXd gradient;
 
-    Random(const Operators& operators, const std::vector<Freedom>& freedoms, CoupledSystem& system) {
+    RandomParts(const Operators& operators, const std::vector<Freedom>& freedoms, CoupledSystem& system) {
         const Eigen::Index n = 2 * operators.vertex_count;
         hessian = Eigen::MatrixXd::Zero(n, n);
         gradient = Eigen::VectorXd::Zero(n);
@@ -60,7 +60,7 @@ TEST_P(CoupledSystems, TakesTheNewtonStepOfADenseMatrix) {
     for (const int v : {0, 3, 7, 12}) freedoms[v] = Freedom::fixed;
     CoupledSystem system(operators, freedoms, 2);
     for (const double factor : {1.0, 3.0}) {
-        Random random(operators, freedoms, system);
+        RandomParts random(operators, freedoms, system);
         if (factor != 1) {
             system.scale_diagonal(factor);
             for (Eigen::Index i = 0; i < random.hessian.rows(); ++i)
