@@ -19,6 +19,5 @@ function(beltrami_embed target symbol file)
     set(source ${CMAKE_CURRENT_BINARY_DIR}/${symbol}.cpp)
     add_custom_command(OUTPUT ${source} VERBATIM DEPENDS ${file} ${BELTRAMI_EMBED_SCRIPT} COMMENT "Embedding ${file}"
         COMMAND ${CMAKE_COMMAND} -DFILE=${file} -DSYMBOL=${symbol} -DOUT=${source} -P ${BELTRAMI_EMBED_SCRIPT})
-    set_source_files_properties(${source} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
     target_sources(${target} PRIVATE ${source})
 endfunction()

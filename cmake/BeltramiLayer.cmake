@@ -62,9 +62,8 @@ function(beltrami_layer name)
     endforeach()
     set_target_properties(beltrami_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON
         CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
-    beltrami_precompile(layers beltrami_${name})
     list(TRANSFORM ARG_ALONE PREPEND ${folder}/)
-    beltrami_few_at_a_time(beltrami_${name} ${ARG_ALONE})
+    beltrami_few_at_a_time(beltrami_${name} 8 ${ARG_ALONE})
     set(BELTRAMI_LAYERS ${BELTRAMI_LAYERS} ${name} CACHE INTERNAL "")
 endfunction()
 
@@ -78,5 +77,4 @@ function(beltrami_choice layer file)
     target_link_libraries(beltrami_${file} PRIVATE beltrami_${layer} beltrami_warnings ${ARG_LIBRARIES})
     set_target_properties(beltrami_${file} PROPERTIES POSITION_INDEPENDENT_CODE ON
         CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
-    beltrami_precompile(layers beltrami_${file})
 endfunction()

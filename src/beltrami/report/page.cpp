@@ -12,6 +12,8 @@
 #include <string_view>
 #include <unordered_map>
 
+#include <Eigen/Geometry>
+
 #include <beltrami/base/error.h>
 #include <beltrami/locate/corner_weights.h>
 #include <beltrami/report/drawing.h>

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include <Eigen/LU>
 #include <Eigen/SVD>
 
 #include <beltrami/certificate/proved_bounds.h>

@@ -8,6 +8,7 @@
 #include <set>
 
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include <beltrami/base/error.h>
 #include <beltrami/generate/grids.h>

@@ -1,6 +1,7 @@
 #include <beltrami/flow/unfolded_patches.h>
 
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include <beltrami/flow/averaged_patches.h>
 #include <beltrami/flow/surface_flow.h>

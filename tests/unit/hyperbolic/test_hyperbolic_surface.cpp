@@ -3,6 +3,7 @@
 #include <map>
 
 #include <gtest/gtest.h>
+#include <Eigen/LU>
 
 #include <beltrami/base/constants.h>
 #include <beltrami/generate/double_torus.h>

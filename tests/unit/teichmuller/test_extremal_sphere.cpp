@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include <beltrami/base/error.h>
 #include <beltrami/generate/grids.h>
