@@ -99,13 +99,18 @@ class Flow {
             if (scheme != of_energy) energy = energy_of(of_energy = scheme);
             const TargetStep::Taken taken = take(*energy, scheme, mu);
             const End end = end_after(*energy, taken);
-            if (end == End::none || opens_patches() || scheme_.turns(flips_)) continue;
+            if (end == End::none) {
+                if (scheme == FlowScheme::perturbation && flips_ > 0 && taken.length < kHeldUp) opens_patches();
+                continue;
+            }
+            if (scheme_.now(flips_) != scheme || opens_patches() || scheme_.turns(flips_)) continue;
             if (end == End::settled && flips_ == 0)
                 result_.termination = Termination::converged;
             else if (taken.length > 0 || end == End::settled)
                 result_.termination = Termination::unconfirmed;
             break;
         }
+        if (result_.termination == Termination::iteration_limit) opens_patches();
         return finish(mu);
     }
 
@@ -142,7 +147,8 @@ class Flow {
 
     /// Where steps leave flips that patches of means or unfolded ones do not: goes on with fewer.
     bool opens_patches() {
-        if (options_.scheme != FlowScheme::automatic || flips_ == 0) return false;
+        const bool may = options_.scheme == FlowScheme::automatic || options_.scheme == FlowScheme::perturbation;
+        if (!may || flips_ == 0) return false;
         std::vector<char> held;
         for (const signed char unknowns : motion_.unknowns()) held.push_back(unknowns < 2);
         int left = average_flipped_patches(source_, motion_.target(), held, result_.map);

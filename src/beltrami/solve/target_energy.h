@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/solve/image_frame.h>
 
 namespace beltrami {
@@ -28,6 +29,8 @@ class TargetEnergy {
     virtual void prepare(const Operators& /*operators*/, const Positions& /*points*/, const Positions& /*normals*/) {}
     /// Whether a step has to lower it; else it has only to flip no more samples.
     virtual bool descends() const { return true; }
+    /// The largest |v| of a sample up to which the sum above is like the energy; infinite where it is not told by |v|.
+    virtual double reach() const { return kInfinity; }
 };
 
 /// Σ W |∂̄f − σ∂f|², the full Gauss-Newton step: nothing is singular where a sample collapses or is flipped.
@@ -69,6 +72,8 @@ class BarrierEnergy final : public TargetEnergy {
     double value(const ImageFrame& frame, int sample) const override;
     SampleTerm term(const ImageFrame& frame, int sample) const override;
     void prepare(const Operators& operators, const Positions& points, const Positions& normals) override;
+    /// |v| is hyperbolic: 1 turns a sample of no distortion into one of |μ| = tanh 1.
+    double reach() const override { return 1; }
 
     /// What ψ is measured in: 1 for p = 2.
     double unit() const { return unit_; }

@@ -8,6 +8,8 @@
 #include <beltrami/base/error.h>
 #include <beltrami/base/parallel.h>
 #include <beltrami/solve/damping.h>
+#include <beltrami/sphere/moebius_drift.h>
+#include <beltrami/targets/simple_targets.h>
 
 namespace beltrami {
 
@@ -18,6 +20,10 @@ constexpr double kShortest = 1e-6;  // step length below which no step is taken
 constexpr double kShift = 1e-9, kLargestShift = 1e-3;
 constexpr double kHeldUpDamping = 1, kHeldUpFactor = 100;  // where no step is possible at all
 constexpr double kNoticeable = 1e-2;
+constexpr double kStiffening = 100, kSlackening = 4;  // of samples, at most in one step, and from step to step
+constexpr double kStiff = 1.5;                        // by which stiffness a step counts as damped
+constexpr double kBlocked = 0.05;                 // step length below which vertices of faces that would flip are held
+constexpr double kFirstHold = 1, kTighter = 100;  // how much, and where they would again
 constexpr int kMostCorners = 4;
 
 ElementSystem system_of(const Operators& operators, const std::vector<int>& place) {
@@ -35,7 +41,9 @@ TargetStep::TargetStep(const Operators& operators, const TargetMotion& motion)
       motion_(motion),
       place_(motion.indices_of_moving()),
       system_(system_of(operators, place_)),
-      gradient_(system_.unknown_count()) {}
+      gradient_(system_.unknown_count()),
+      stiffness_(Eigen::VectorXd::Ones(operators.sample_count())),
+      hold_(Eigen::VectorXd::Zero(operators.vertex_count)) {}
 
 TargetStep::Height TargetStep::height(const TargetEnergy& energy, const TargetMap& map) const {
     const Positions points = positions_of(map.points), normals = normals_of(map.points);
@@ -61,6 +69,7 @@ void TargetStep::assemble(const TargetEnergy& energy, const TargetMap& map,
     for (int s = 0; s < operators_.sample_count(); ++s) {
         const ImageFrame frame = image_frame(operators_, s, points, normals);
         const SampleTerm term = energy.term(frame, s);
+        const double along = stiffness_[s] * term.along, across = stiffness_[s] * term.across;
         const auto stencil = operators_.stencil(s);
         const auto g = operators_.gradient(s);
         std::size_t entry = 0;
@@ -70,7 +79,7 @@ void TargetStep::assemble(const TargetEnergy& energy, const TargetMap& map,
             if (const int node = place_[stencil[i / 2]]; node >= 0)
                 gradient_[2 * node + static_cast<int>(i % 2)] += std::real(std::conj(term.gradient) * v[i]);
             for (std::size_t j = 0; j <= i; ++j)
-                hessian[entry++] = term.along * v[i].real() * v[j].real() + term.across * v[i].imag() * v[j].imag();
+                hessian[entry++] = along * v[i].real() * v[j].real() + across * v[i].imag() * v[j].imag();
         }
         system_.add(s, {hessian.data(), entry});
     }
@@ -95,6 +104,10 @@ std::optional<Positions> TargetStep::direction(const TargetEnergy& energy, const
     Eigen::VectorXd solution;
     for (double shift = kShift;; shift *= 100) {
         assemble(energy, map, ways);
+        for (std::size_t v = 0; v < place_.size(); ++v)
+            if (const double hold = hold_[static_cast<Eigen::Index>(v)]; hold > 0 && place_[v] >= 0)
+                for (const int unknown : {2 * place_[v], 2 * place_[v] + 1})
+                    system_.add_to_diagonal(unknown, hold * system_.diagonal(unknown));
         system_.scale_diagonal(1 + shift + damping_);
         try {
             system_.factorize();
@@ -105,7 +118,14 @@ std::optional<Positions> TargetStep::direction(const TargetEnergy& energy, const
             if (shift >= kLargestShift) return {};
         }
     }
-    return motion_along(place_, ways, solution);
+    Positions motion = motion_along(place_, ways, solution);
+    if (!energy.descends() || !motion_.unheld() || dynamic_cast<const SphereTarget*>(&motion_.target()) == nullptr)
+        return motion;
+    // Along conformal maps of the target the energy is flat up to the mesh's error, and a step long and without use.
+    Eigen::VectorXd weights = Eigen::VectorXd::Zero(operators_.vertex_count);
+    for (int s = 0; s < operators_.sample_count(); ++s)
+        for (const int v : operators_.stencil(s)) weights[v] += operators_.weights[s];
+    return without_moebius_drift(positions_of(map.points), motion, weights);
 }
 
 TargetStep::Taken TargetStep::step(TargetEnergy& energy, TargetMap& map, double largest) {
@@ -119,24 +139,70 @@ TargetStep::Taken TargetStep::step(TargetEnergy& energy, TargetMap& map, double 
     const double longest = motion->rowwise().norm().maxCoeff();
     taken.wanted = longest;
     double length = std::min(1.0, largest / longest);
+    TargetMap trial, rejected;
     while (length > kShortest) {
-        TargetMap trial = motion_.moved(map, *motion, length);
+        trial = motion_.moved(map, *motion, length);
         const Height after = height(energy, trial);
         const bool lower = !energy.descends() || after.energy < before.energy;
         if (!lower || after.flips > before.flips) {
+            if (after.flips > before.flips) std::swap(rejected, trial);
             length *= 0.5;
             continue;
         }
-        map = std::move(trial);
+        std::swap(map, trial);
         taken.length = length;
         taken.movement = length * longest;
         taken.energy = after.energy;
         taken.fallen = before.energy > 0 ? 1 - after.energy / before.energy : 0;
-        taken.damped = damping_ > kNoticeable;
+        taken.damped = damping_ > kNoticeable || stiffness_.maxCoeff() > kStiff || hold_.maxCoeff() > kNoticeable;
         break;
     }
-    if (energy.descends()) damp(taken.length);
+    if (!energy.descends()) return taken;
+    if (!std::isfinite(energy.reach())) {
+        damp(taken.length);
+        return taken;
+    }
+    const TargetMap& from = taken.length > 0 ? trial : map;
+    stiffness_ = (stiffness_ / kSlackening).cwiseMax(1);
+    hold_ = (hold_.array() < kNoticeable).select(0, hold_ / kSlackening);
+    damping_ = damping_ / kDampingFactor < kLeastDamping ? 0 : damping_ / kDampingFactor;
+    if (taken.length == 0) damping_ = std::max(kHeldUpFactor * kDampingFactor * damping_, kHeldUpDamping);
+    if (taken.length <= kNearlyFull) stiffen(energy, from, *motion);
+    if (taken.length < kBlocked && !rejected.points.empty()) hold_flipped(from, rejected);
     return taken;
+}
+
+void TargetStep::stiffen(const TargetEnergy& energy, const TargetMap& from, const Positions& motion) {
+    const Positions points = positions_of(from.points), normals = normals_of(from.points);
+    parallel_for(0, operators_.sample_count(), [&](int first, int last) {
+        for (int s = first; s < last; ++s) {
+            const ImageFrame frame = image_frame(operators_, s, points, normals);
+            const SampleTerm term = energy.term(frame, s);
+            const auto stencil = operators_.stencil(s);
+            const auto g = operators_.gradient(s);
+            Complex v = 0;
+            for (std::size_t i = 0; i < stencil.size(); ++i)
+                v += 0.5 * frame.along(motion.row(stencil[i]).transpose()) *
+                     (term.of_dzbar * g[i] + term.of_dz * std::conj(g[i]));
+            const double beyond = std::abs(v) / energy.reach();
+            if (beyond > 1) stiffness_[s] *= kSlackening * std::min(beyond, kStiffening);
+        }
+    });
+}
+
+/// Of samples whose distortion does not foretell that they flip: faces cut through a mesh where it bends.
+void TargetStep::hold_flipped(const TargetMap& from, const TargetMap& rejected) {
+    const Positions points = positions_of(from.points), normals = normals_of(from.points),
+                    moved = positions_of(rejected.points), moved_normals = normals_of(rejected.points);
+    std::vector<char> blocks(static_cast<std::size_t>(hold_.size()), 0);
+    for (int s = 0; s < operators_.sample_count(); ++s) {
+        if (stiffness_[s] > 1 || image_frame(operators_, s, moved, moved_normals).upright ||
+            !image_frame(operators_, s, points, normals).upright)
+            continue;
+        for (const int v : operators_.stencil(s)) blocks[v] = 1;
+    }
+    for (std::size_t v = 0; v < blocks.size(); ++v)
+        if (double& hold = hold_[static_cast<Eigen::Index>(v)]; blocks[v]) hold = std::max(kTighter * hold, kFirstHold);
 }
 
 void TargetStep::damp(double length) {

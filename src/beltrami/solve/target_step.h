@@ -11,8 +11,10 @@ namespace beltrami {
 
 /// Gauss-Newton steps of a map along its target: every vertex has up to two unknowns, in units of the size of its
 /// smallest face, so that limbs of any size count alike. A step is halved until it lowers the energy and flips no more
-/// samples; one that has to be cut short is damped as Levenberg and Marquardt do: a needle that is about to flip then
-/// holds up itself and not the others.
+/// samples. After one that had to be cut short the samples that would have changed by more than the energy's model
+/// reaches are made stiffer, each as far as it went too far, and the vertices of others that it would have flipped are
+/// held, both for some steps: a needle that is about to flip then holds up itself and not the others. Where the energy
+/// tells no reach, the step is damped as Levenberg and Marquardt do.
 class TargetStep {
   public:
     /// @param operators of the source; kept by reference as motion is
@@ -24,7 +26,7 @@ class TargetStep {
         double wanted = 0;    ///< the same of the whole step
         double energy = 0;    ///< after it
         double fallen = 0;    ///< by which part the energy fell
-        bool damped = false;  ///< the step was shortened in some directions
+        bool damped = false;  ///< the step was shortened in some directions: by damping, or where samples were stiff
     };
     /// Takes one step, or none where faces have collapsed so far that its system cannot be solved.
     /// @param largest motion of a vertex
@@ -41,13 +43,17 @@ class TargetStep {
     std::optional<Positions> direction(const TargetEnergy& energy, const TargetMap& map);
     void assemble(const TargetEnergy& energy, const TargetMap& map, const std::vector<TargetMotion::Directions>& ways);
     void damp(double length);
+    void stiffen(const TargetEnergy& energy, const TargetMap& from, const Positions& motion);
+    void hold_flipped(const TargetMap& from, const TargetMap& rejected);
 
     const Operators& operators_;
     const TargetMotion& motion_;
     std::vector<int> place_;  ///< #V among the vertices that move, −1 elsewhere
     ElementSystem system_;
     Eigen::VectorXd gradient_;
-    double damping_ = 0;
+    Eigen::VectorXd stiffness_;  ///< #S, at least 1: by what the second derivatives of samples are multiplied
+    Eigen::VectorXd hold_;       ///< #V, of the diagonal what is added to it
+    double damping_ = 0;         ///< the same of all vertices
 };
 
 /// Samples whose image is flipped.
