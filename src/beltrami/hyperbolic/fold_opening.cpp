@@ -10,6 +10,7 @@
 #include <Eigen/Dense>
 
 #include <beltrami/hyperbolic/face_chart.h>
+#include <beltrami/plane/klein.h>
 
 namespace beltrami {
 
@@ -22,14 +23,6 @@ constexpr std::size_t kMostFaces = 24;  // around a vertex that is moved
 constexpr double kGain = 1e-6;          // of the badness of the worst face around a vertex
 constexpr double kFolded = 1e3;         // badness of a face with no area; of a flipped one more
 
-/// A place of the disk in Klein's model, where geodesics are straight, and back.
-Complex in_klein(Complex z) {
-    return 2.0 * z / (1 + std::norm(z));
-}
-Complex from_klein(Complex z) {
-    return z / (1 + std::sqrt(std::max(0.0, 1 - std::norm(z))));
-}
-
 /// The edges around a vertex, seen from its image at 0 in Klein's model: a face lies on their left.
 using Link = std::vector<std::array<Complex, 2>>;
 
@@ -40,7 +33,7 @@ Link link_of(const Surface& source, const EquivariantMap& map, const std::vector
         const int first = corner - corner % 3;
         const DiskIsometry there = step_at_corner(source, map, corner),
                            back = step_at_corner(source, map, first + (corner + 2) % 3);
-        link.push_back({in_klein(there.place()), in_klein(back.inverse().place())});
+        link.push_back({to_klein(there.place()), to_klein(back.inverse().place())});
     }
     return link;
 }

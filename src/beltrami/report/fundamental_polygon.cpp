@@ -7,6 +7,8 @@
 
 #include <Eigen/Core>
 
+#include <beltrami/plane/klein.h>
+
 namespace beltrami {
 
 namespace {
@@ -64,16 +66,6 @@ class KleinPolygon {
     std::vector<int> sides_;
 };
 
-Complex to_disk(const Eigen::Vector2d& klein) {
-    const double factor = 1 / (1 + std::sqrt(std::max(0.0, 1 - klein.squaredNorm())));
-    return {factor * klein.x(), factor * klein.y()};
-}
-
-Eigen::Vector2d to_klein(Complex z) {
-    const double factor = 2 / (1 + std::norm(z));
-    return {factor * z.real(), factor * z.imag()};
-}
-
 /// Between two sides, from the normals of their planes in Minkowski's space.
 double angle_between(const Eigen::Vector3d& first, const Eigen::Vector3d& second) {
     const auto normal = [](const Eigen::Vector3d& image) { return Eigen::Vector3d(image[0] - 1, image[1], image[2]); };
@@ -121,12 +113,17 @@ struct Search {
     }
 };
 
+Complex corner_place(const Eigen::Vector2d& corner) {
+    return {corner.x(), corner.y()};
+}
+
 /// Without sides that have shrunk to a corner, where more than three copies of the polygon meet.
 HyperbolicPolygon in_disk(const Search& search, double area) {
     const std::vector<Eigen::Vector2d>& corners = search.polygon.corners();
     HyperbolicPolygon result;
     for (std::size_t i = 0; i < corners.size(); ++i) {
-        const Complex from = to_disk(corners[i]), to = to_disk(corners[(i + 1) % corners.size()]);
+        const Complex from = from_klein(corner_place(corners[i])),
+                      to = from_klein(corner_place(corners[(i + 1) % corners.size()]));
         if (std::abs((to - from) / (1.0 - std::conj(from) * to)) < kShrunk) continue;
         result.corners.push_back(from);
         result.sides.push_back(search.isometries[static_cast<std::size_t>(search.polygon.sides()[i])]);
@@ -138,9 +135,9 @@ HyperbolicPolygon in_disk(const Search& search, double area) {
 }  // namespace
 
 std::vector<Complex> HyperbolicPolygon::points_of_side(std::size_t side, int pieces) const {
-    const Eigen::Vector2d from = to_klein(corners[side]), to = to_klein(corners[(side + 1) % corners.size()]);
+    const Complex from = to_klein(corners[side]), to = to_klein(corners[(side + 1) % corners.size()]);
     std::vector<Complex> points{corners[side]};
-    for (int i = 1; i < pieces; ++i) points.push_back(to_disk(from + (to - from) * i / pieces));
+    for (int i = 1; i < pieces; ++i) points.push_back(from_klein(from + static_cast<double>(i) / pieces * (to - from)));
     points.push_back(corners[(side + 1) % corners.size()]);
     return points;
 }
