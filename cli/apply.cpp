@@ -6,6 +6,7 @@
 #include <beltrami/io/atomic_file.h>
 #include <beltrami/io/number_lists.h>
 #include <beltrami/locate/map_evaluation.h>
+#include <beltrami/locate/point_at.h>
 #include <beltrami/operators/distortion.h>
 
 #include "command.h"
@@ -140,8 +141,7 @@ class Apply final : public Command {
     }
 
     static std::string position(const Mesh& mesh, const MeshPoint& place) {
-        Eigen::Vector3d p = Eigen::Vector3d::Zero();
-        for (int j = 0; j < 3; ++j) p += place.barycentric[j] * mesh.point(place.vertices[j]);
+        const Eigen::Vector3d p = point_at(mesh, place);
         return fmt::format("{} {} {}\n", p.x(), p.y(), p.z());
     }
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <beltrami/base/error.h>
+#include <beltrami/locate/point_at.h>
 
 #include "landmark_options.h"
 #include "place_file.h"
@@ -142,8 +143,7 @@ std::vector<CurveOnto> CurveOption::curves(const MeshInput& source, const MeshIn
             const NearestPlace found = place_at(path_, row, 0, target);
             Target::Point point;
             point.place = found.place;
-            for (int i = 0; i < 3; ++i)
-                point.position += found.place.barycentric[i] * target.mesh.point(found.place.vertices[i]);
+            point.position = point_at(target.mesh, found.place);
             return std::pair(point, found.distance / (diagonal * target.unit));
         },
         warnings);

@@ -9,6 +9,7 @@
 #include <beltrami/applications/handled_surface.h>
 #include <beltrami/applications/held_maps.h>
 #include <beltrami/base/error.h>
+#include <beltrami/locate/point_at.h>
 #include <beltrami/mesh/planar.h>
 #include <beltrami/remeshing/feature_curves.h>
 #include <beltrami/remeshing/mesh_comparison.h>
@@ -35,16 +36,6 @@ Mesh with_positions(const Mesh& mesh, Positions positions) {
     result.positions = std::move(positions);
     result.faces = mesh.faces;
     return result;
-}
-
-/// The same places on a surface with the same faces.
-Positions points_at(const Mesh& surface, const std::vector<MeshPoint>& places) {
-    Positions points = Positions::Zero(surface.vertex_count(), 3);
-    for (std::size_t v = 0; v < places.size(); ++v)
-        for (int i = 0; i < 3; ++i)
-            points.row(static_cast<Eigen::Index>(v)) +=
-                places[v].barycentric[i] * surface.point(places[v].vertices[i]).transpose();
-    return points;
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <beltrami/base/disjoint_sets.h>
 #include <beltrami/base/error.h>
 #include <beltrami/base/parallel.h>
+#include <beltrami/locate/point_at.h>
 #include <beltrami/plane/polygon.h>
 #include <beltrami/plane/segment_tree.h>
 
@@ -378,13 +379,9 @@ SurfaceGrid grid_on_surface(const Surface& source, const Eigen::VectorXcd& map, 
                 result.on_border[v] = node.on_border;
                 const MeshPoint parent = image.locator.nearest(node.place);
                 result.parents[v] = parent;
-                result.mesh.positions.row(v).setZero();
-                at_vertices.row(v).setZero();
-                for (int k = 0; k < 3; ++k) {
-                    result.mesh.positions.row(v) +=
-                        parent.barycentric[k] * source.mesh.positions.row(parent.vertices[k]);
-                    at_vertices.row(v) += parent.barycentric[k] * normals.row(parent.vertices[k]);
-                }
+                result.mesh.positions.row(v) =
+                    point_at(source.mesh, parent).head(result.mesh.positions.cols()).transpose();
+                at_vertices.row(v) = point_at(normals, parent).transpose();
             }
         },
         256);

@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
+#include <beltrami/locate/point_at.h>
 #include <beltrami/registration/nearest_places.h>
 
 namespace beltrami {
@@ -68,11 +69,8 @@ Pose settled(const Positions& points, const Mesh& target, Pose pose) {
     for (int step = 0; step < kMostSteps; ++step) {
         const std::vector<NearestPlace> nearest = nearest_places(target, pose(points));
         Eigen::Matrix3Xd from = points.transpose(), to(3, points.rows());
-        for (Eigen::Index i = 0; i < points.rows(); ++i) {
-            const MeshPoint& place = nearest[static_cast<std::size_t>(i)].place;
-            to.col(i).setZero();
-            for (std::size_t k = 0; k < 3; ++k) to.col(i) += place.barycentric[k] * target.point(place.vertices[k]);
-        }
+        for (Eigen::Index i = 0; i < points.rows(); ++i)
+            to.col(i) = point_at(target, nearest[static_cast<std::size_t>(i)].place);
         const Eigen::Matrix4d fitted = Eigen::umeyama(from, to, false);
         const double change = (fitted.topLeftCorner<3, 3>() - pose.rotation).norm();
         pose.rotation = fitted.topLeftCorner<3, 3>();

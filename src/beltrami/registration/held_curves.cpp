@@ -13,6 +13,7 @@
 #include <beltrami/base/error.h>
 #include <beltrami/flow/averaged_patches.h>
 #include <beltrami/flow/unfolded_patches.h>
+#include <beltrami/locate/point_at.h>
 #include <beltrami/operators/frames.h>
 #include <beltrami/registration/curve_start.h>
 #include <beltrami/sphere/unit_sphere.h>
@@ -143,10 +144,7 @@ Positions divided(const Positions& start, const Mesh& source, const MeshWithCurv
     Positions result(start.rows() + static_cast<Eigen::Index>(with_curves.places.size()), 3);
     result.topRows(start.rows()) = start;
     for (std::size_t i = 0; i < with_curves.places.size(); ++i) {
-        const MeshPoint& place = with_curves.places[i];
-        Eigen::RowVector3d point = Eigen::RowVector3d::Zero();
-        for (int j = 0; j < 3; ++j) point += place.barycentric[j] * start.row(place.vertices[j]);
-        result.row(start.rows() + static_cast<Eigen::Index>(i)) = point;
+        result.row(start.rows() + static_cast<Eigen::Index>(i)) = point_at(start, with_curves.places[i]).transpose();
     }
     return result;
 }

@@ -14,6 +14,7 @@
 #include <beltrami/base/error.h>
 #include <beltrami/flow/led_map.h>
 #include <beltrami/flow/unfolded_patches.h>
+#include <beltrami/locate/point_at.h>
 #include <beltrami/registration/curve_start.h>
 #include <beltrami/registration/held_curves.h>
 #include <beltrami/registration/register_open.h>
@@ -80,8 +81,7 @@ double distance_from_curves(const Mesh& target, std::span<const MeshPoint> place
         const auto& partner = on_target.curves[c];
         const PolylineCurve curve(on_target.mesh.positions(partner.vertices, Eigen::all), partner.closed);
         for (const int v : source.curves[c].vertices) {
-            Eigen::Vector3d point = Eigen::Vector3d::Zero();
-            for (int i = 0; i < 3; ++i) point += places[v].barycentric[i] * target.point(places[v].vertices[i]);
+            const Eigen::Vector3d point = point_at(target, places[v]);
             largest = std::max(largest, (point - curve.point(curve.nearest(point))).norm());
         }
     }

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include <beltrami/base/parallel.h>
+#include <beltrami/locate/point_at.h>
 
 namespace beltrami {
 
@@ -85,9 +86,7 @@ std::vector<MeshPoint> SphereLocator::locate(const Positions& points) const {
 }
 
 Eigen::Vector3d sphere_place(const Positions& points, const MeshPoint& place) {
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (int i = 0; i < 3; ++i) sum += place.barycentric[i] * points.row(place.vertices[i]).transpose();
-    return sum.normalized();
+    return point_at(points, place).normalized();
 }
 
 }  // namespace beltrami

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <beltrami/base/error.h>
+#include <beltrami/locate/point_at.h>
 
 namespace beltrami {
 
@@ -110,8 +111,7 @@ void meet_landmarks(std::span<const SurfaceLandmark> landmarks, CarriedSurface& 
 void measure_landmarks(const Mesh& target, std::span<const SurfaceLandmark> landmarks, CarriedSurface& carried) {
     for (const SurfaceLandmark& landmark : landmarks) {
         if (std::isinf(landmark.weight)) continue;
-        Eigen::Vector3d place = Eigen::Vector3d::Zero();
-        for (int i = 0; i < 3; ++i) place += landmark.place.barycentric[i] * target.point(landmark.place.vertices[i]);
+        const Eigen::Vector3d place = point_at(target, landmark.place);
         const double distance = (carried.positions.row(landmark.vertex).transpose() - place).norm();
         carried.largest_distance = std::max(carried.largest_distance.value_or(0), distance);
     }

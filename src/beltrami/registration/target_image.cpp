@@ -2,15 +2,14 @@
 
 #include <utility>
 
+#include <beltrami/locate/point_at.h>
 #include <beltrami/registration/sphere_locator.h>
 #include <beltrami/starts/target_model.h>
 
 namespace beltrami {
 
 Eigen::Vector3d TargetImage::place(const Positions& points, const MeshPoint& place) const {
-    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-    for (int i = 0; i < 3; ++i) mean += place.barycentric[i] * points.row(place.vertices[i]).transpose();
-    return surface_point(mean);
+    return surface_point(point_at(points, place));
 }
 
 Positions TargetImage::at(const Positions& points, std::span<const MeshPoint> places) const {

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include <beltrami/base/error.h>
+#include <beltrami/locate/point_at.h>
 #include <beltrami/mesh/topology.h>
 
 namespace beltrami {
@@ -36,15 +37,14 @@ MeshTarget::MeshTarget(Mesh mesh)
 }
 
 Eigen::Vector3d MeshTarget::normal(const MeshPoint& place) const {
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (int i = 0; i < 3; ++i) sum += place.barycentric[i] * normals_.row(place.vertices[i]).transpose();
+    const Eigen::Vector3d sum = point_at(normals_, place);
     if (const double length = sum.norm(); length > 0) return sum / length;
     return face_vector_area(mesh_, place.face).normalized();
 }
 
 Target::Point MeshTarget::at(const MeshPoint& place) const {
     Point result;
-    for (int i = 0; i < 3; ++i) result.position += place.barycentric[i] * mesh_.point(place.vertices[i]);
+    result.position = point_at(mesh_, place);
     result.normal = normal(place);
     result.place = place;
     return result;

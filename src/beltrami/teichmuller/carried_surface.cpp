@@ -1,3 +1,4 @@
+#include <beltrami/locate/point_at.h>
 #include <beltrami/teichmuller/carried_surface.h>
 
 #include <algorithm>
@@ -10,15 +11,6 @@ namespace beltrami {
 namespace {
 
 constexpr double kUnresolved = 0.5;  // |(μ − ν)/(1 − conj(ν) μ)| of a dilatation of 3
-
-Positions positions_at(const Mesh& target, std::span<const MeshPoint> places) {
-    Positions points = Positions::Zero(static_cast<Eigen::Index>(places.size()), 3);
-    for (std::size_t i = 0; i < places.size(); ++i)
-        for (int j = 0; j < 3; ++j)
-            points.row(static_cast<Eigen::Index>(i)) +=
-                places[i].barycentric[j] * target.point(places[i].vertices[j]).transpose();
-    return points;
-}
 
 /// The normal of the target's face at every place.
 Positions normals_at(const Mesh& target, std::span<const MeshPoint> places) {
@@ -35,14 +27,11 @@ std::vector<char> faces_that_miss(const Mesh& source, const Mesh& target, const 
     for (std::size_t v = 0; v < back.size(); ++v) {
         const MeshPoint& place = back[v];
         if (place.face < 0) continue;
-        Eigen::RowVector3d straight = Eigen::RowVector3d::Zero();
         double longest = 0;
-        for (int i = 0; i < 3; ++i) {
-            straight += place.barycentric[i] * images.row(place.vertices[i]);
+        for (int i = 0; i < 3; ++i)
             longest =
                 std::max(longest, (images.row(place.vertices[(i + 1) % 3]) - images.row(place.vertices[i])).norm());
-        }
-        if ((straight - target.point(static_cast<int>(v)).transpose()).norm() > longest) result[place.face] = 1;
+        if ((point_at(images, place) - target.point(static_cast<int>(v))).norm() > longest) result[place.face] = 1;
     }
     return result;
 }
@@ -51,7 +40,7 @@ std::vector<char> faces_that_miss(const Mesh& source, const Mesh& target, const 
 
 void CarriedSurface::measure(const Surface& source, const Surface& target, const Eigen::VectorXcd& mu,
                              std::span<const MeshPoint> back) {
-    positions = positions_at(target.mesh, places);
+    positions = points_at(target.mesh, places);
     in_space = distortion(source.operators, positions, normals_at(target.mesh, places));
     std::vector<char> missed = faces_that_miss(source.mesh, target.mesh, positions, back);
     for (Eigen::Index s = 0; s < mu.size(); ++s) {
