@@ -1,7 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <optional>
+
 #include <beltrami/base/error.h>
+#include <beltrami/certificate/refined_problem.h>
 #include <beltrami/charts/uniformization.h>
+#include <beltrami/constraints/prescribed_split.h>
 #include <beltrami/forms/flat_torus.h>
 #include <beltrami/forms/period_matrix.h>
 #include <beltrami/hyperbolic/hyperbolic_domain.h>
@@ -146,26 +152,64 @@ class Uniformize final : public Command {
         finish_layout(source, input, found.layout, found.distortion, [&] { return page_domain(source, found); });
     }
 
-    void to_hyperbolic_plane(const Surface& source, const MeshInput& input, double start) {
+    /// Edges across it that join two boundary vertices are split first: along the boundary, a geodesic, their faces
+    /// have no area.
+    void to_hyperbolic_plane(const Surface& source, MeshInput& input, double start) {
         output_.check_layout();
+        std::optional<SplitProblem> split;
+        if (!source.topology.boundary_loops.empty() && all_triangles(source.mesh)) split = split_bridges(source);
+        if (!split || split->split_edges == 0) {
+            to_polygon(source, source, input, start);
+            return;
+        }
+        record_.split = split_record(*split, source.mesh.vertex_count());
+        record_.warnings.push_back(
+            {WarningKind::edges_split, counted(split->split_edges, "edge", "edges") + " between boundary vertices " +
+                                           (split->split_edges == 1 ? "was" : "were") + " split at the midpoint"});
+        input.mesh = source.mesh;
+        take_split(input, *split);
+        for (const std::array<int, 4>& parents : split->parents) beside_.push_back(parents[0]);
+        to_polygon(source, surface_of(split->mesh, split->metric), input, start);
+    }
+
+    /// @param given the source before vertices were added
+    void to_polygon(const Surface& given, const Surface& source, const MeshInput& input, double start) {
         const HyperbolicSurface metric = hyperbolic_surface(source);
-        const HyperbolicDomain found = hyperbolic_domain(source, metric);
+        HyperbolicDomain found = hyperbolic_domain(source, metric);
+        HomologyBasis basis;
         if (metric.has_boundary()) {
             record_.solve = direct_solve(metric.factorizations, start);
-            const HomologyBasis basis = homology_basis(source);
+            basis = homology_basis(given);
             record_.periods = periods_record(basis, {}, {}, input.unit);
-            short_loops_ = basis.loops;
         } else {
-            const HarmonicBasis basis = harmonic_basis(source);
-            const PeriodMatrix periods = period_matrix(source, basis);
-            record_.solve = direct_solve(metric.factorizations + basis.factorizations, start);
-            record_.periods = periods_record(basis.homology, periods.basis, periods.periods, input.unit);
-            short_loops_ = basis.homology.loops;
+            const HarmonicBasis harmonic = harmonic_basis(source);
+            const PeriodMatrix periods = period_matrix(source, harmonic);
+            basis = harmonic.homology;
+            record_.solve = direct_solve(metric.factorizations + harmonic.factorizations, start);
+            record_.periods = periods_record(basis, periods.basis, periods.periods, input.unit);
         }
+        short_loops_ = basis.loops;
+        beside_added(found.paths, given.mesh.vertex_count());
         record_.solve->iterations = metric.iterations;
         record_.hyperbolic = hyperbolic_record(metric, found);
+        if (metric.inverted.size() > found.distortion.flipped.size())
+            record_.warnings.push_back(
+                {WarningKind::unfolded, counted(metric.inverted.size(), "face", "faces") +
+                                            " came out flipped, as edges were flipped on the way, and vertices around "
+                                            "them were moved"});
         finish_layout(source, input, found.layout, found.distortion,
                       [&] { return page_domain(source, metric, found); });
+    }
+
+    /// Closed paths past an end of an edge that was split instead of over its midpoint: vertices that the file has.
+    void beside_added(std::vector<std::vector<int>>& paths, int given) const {
+        if (beside_.empty()) return;
+        for (std::vector<int>& path : paths) {
+            for (int& v : path)
+                if (v >= given) v = beside_[static_cast<std::size_t>(v - given)];
+            path.erase(std::unique(path.begin(), path.end()), path.end());
+            if (path.size() > 1 && path.front() == path.back()) path.pop_back();
+        }
     }
 
     /// A map with seams is written, and the record.
@@ -249,6 +293,7 @@ class Uniformize final : public Command {
 
     std::string source_, loops_;
     std::vector<std::vector<int>> short_loops_;
+    std::vector<int> beside_;  // of every added vertex one that was there
     std::optional<int> outer_, centre_;
     SphereMethodOption sphere_;
     OutputOptions output_;

@@ -61,7 +61,8 @@ void bind_hyperbolic_shapes(py::module_& m) {
             "layout", [](const DomainObject& d) { return texture_tuple(d.domain.layout); },
             "The faces in one piece: n×2 points of the unit disk and one for each corner (a texture of Mesh)")
         .def_property_readonly(
-            "surface", [](const DomainObject& d) { return d.surface; }, "That was cut open")
+            "surface", [](const DomainObject& d) { return d.surface; },
+            "That was cut open: of a surface with a boundary with edges across it between boundary vertices split")
         .def_property_readonly(
             "distortion", [](const DomainObject& d) { return d.domain.distortion; },
             "Of the map to the layout, face by face")
@@ -92,10 +93,12 @@ void bind_hyperbolic_shapes(py::module_& m) {
         [](const py::object& surface) {
             const ShapePtr shape = shape_from(surface);
             return without_lock([&] {
-                HyperbolicDomain domain = hyperbolic_domain(shape->surface->surface, shape->shape.metric());
-                Record record = space_record(shape->surface, "uniformize", map_record(domain.distortion), {});
+                const SurfacePtr cut =
+                    shape->shape.split() ? std::make_shared<SurfaceObject>(shape->shape.surface()) : shape->surface;
+                HyperbolicDomain domain = hyperbolic_domain(cut->surface, shape->shape.metric());
+                Record record = space_record(cut, "uniformize", map_record(domain.distortion), {});
                 record.hyperbolic = hyperbolic_record(shape->shape.metric(), domain);
-                return DomainObject{shape->surface, std::move(domain), std::move(record)};
+                return DomainObject{cut, std::move(domain), std::move(record)};
             });
         },
         py::arg("surface"),

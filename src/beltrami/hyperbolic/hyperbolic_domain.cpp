@@ -8,6 +8,8 @@
 #include <tuple>
 
 #include <beltrami/base/disjoint_sets.h>
+#include <beltrami/hyperbolic/equivariant_map.h>
+#include <beltrami/hyperbolic/fold_opening.h>
 #include <beltrami/hyperbolic/fundamental_group.h>
 #include <beltrami/hyperbolic/halfedges.h>
 
@@ -17,25 +19,33 @@ namespace {
 
 constexpr double kSamePlace = 1e-6;  // hyperbolic distance; others differ by a deck transformation
 
+/// The steps along the surface's own half-edges, and where the first one begins.
+struct OwnSteps {
+    std::vector<DiskIsometry> steps;
+    DiskIsometry first;
+};
+
 /// Frames of all corners of all triangles in the disk.
-std::vector<DiskIsometry> develop(const HyperbolicSurface& surface) {
+std::vector<DiskIsometry> develop(const HyperbolicSurface& surface, const OwnSteps& own_steps) {
     const IntrinsicTriangulation& triangulation = surface.original;
     const int own = 3 * surface.own_triangles();
+    const std::vector<DiskIsometry>& steps = own_steps.steps;
     std::vector<DiskIsometry> frames(surface.steps.size());
     std::vector<char> placed(static_cast<std::size_t>(triangulation.triangle_count()), 0);
     using Waiting = std::tuple<double, int>;  // distance of the middle beyond a half-edge from 0
     std::priority_queue<Waiting, std::vector<Waiting>, std::greater<>> queue;
     const auto beyond = [&](int h) {  // the frame of the apex of the neighbour
         const int g = triangulation.twin(h);
-        return (frames[h] * surface.step(next_halfedge(g))).normalized();
+        return (frames[h] * steps[next_halfedge(g)]).normalized();
     };
     const auto push = [&](int h) {
         if (triangulation.twin(h) >= own) return;
         const Complex sum = frames[h].place() + frames[next_halfedge(h)].place() + beyond(h).place();
         queue.emplace(std::abs(sum) / 3, h);
     };
-    frames[1] = surface.step(0);
-    frames[2] = surface.step(2).inverse();
+    frames[0] = own_steps.first;
+    frames[1] = own_steps.first * steps[0];
+    frames[2] = own_steps.first * steps[2].inverse();
     placed[0] = 1;
     for (int k = 0; k < 3; ++k) push(k);
     while (!queue.empty()) {
@@ -60,6 +70,27 @@ std::vector<int> halfedges_of_corners(const Surface& surface, const HyperbolicSu
         for (int i = 0; i < faces.degree(f); ++i)
             if (faces[f][i] == metric.original.tail(h)) result[faces.first_corner(f) + i] = h;
     }
+    return result;
+}
+
+/// The steps of the metric, after vertices were moved where faces had come out flipped: the identity with folds opened.
+OwnSteps opened_steps(const Surface& surface, const HyperbolicSurface& metric) {
+    OwnSteps result{metric.steps, {}};
+    if (metric.inverted.empty() || surface.operators.sample_count() != surface.mesh.face_count()) return result;
+    const Topology& topology = surface.topology;
+    const std::vector<int> halfedges = halfedges_of_corners(surface, metric);
+    const auto n = static_cast<std::size_t>(surface.mesh.vertex_count());
+    EquivariantMap identity{std::vector<DiskIsometry>(topology.edges.size()), {}, {}, std::vector<DiskIsometry>(n)};
+    const auto& vertices = surface.mesh.faces.vertices();
+    for (std::size_t c = 0; c < halfedges.size(); ++c) {
+        const auto edge = static_cast<std::size_t>(topology.corner_edges[c]);
+        const DiskIsometry& step = metric.step(halfedges[c]);
+        identity.steps[edge] = topology.edges[edge][0] == vertices[c] ? step : step.inverse();
+    }
+    if (open_folds(surface, identity) == 0) return result;
+    for (std::size_t c = 0; c < halfedges.size(); ++c)
+        result.steps[static_cast<std::size_t>(halfedges[c])] = step_at_corner(surface, identity, static_cast<int>(c));
+    result.first = identity.frames[static_cast<std::size_t>(metric.original.tail(0))];
     return result;
 }
 
@@ -90,7 +121,8 @@ TextureCoordinates layout_of(const Surface& surface, const HyperbolicSurface& me
 HyperbolicDomain hyperbolic_domain(const Surface& surface, const HyperbolicSurface& metric) {
     const FaceList& faces = surface.mesh.faces;
     HyperbolicDomain domain;
-    domain.layout = layout_of(surface, metric, develop(metric));
+    const OwnSteps steps = opened_steps(surface, metric);
+    domain.layout = layout_of(surface, metric, develop(metric, steps));
     Eigen::VectorXcd corners(faces.corner_count());
     for (Eigen::Index c = 0; c < corners.size(); ++c) {
         const auto point = domain.layout.points.row(domain.layout.corners[static_cast<std::size_t>(c)]);
