@@ -153,6 +153,20 @@ class RegisterOpenSurfacesWithHandles(Command):
         self.assertAlmostEqual(d[0, 1], d[1, 2], delta=0.02)
         self.assertEqual(record["merges"][0]["clusters"], [0, 2])
 
+    def test_edges_across_a_ragged_outline_are_split(self):
+        points, faces = torus(2, 1, 48, 24)
+        cell = np.arange(len(faces)) // 2
+        teeth = (cell // 24 == 8) & np.isin(cell % 24, (1, 4))
+        used, faces = np.unique(faces[outside_the_hole(48, 24) & ~teeth], return_inverse=True)
+        points, ragged = points[used], faces.reshape(-1, 3)
+        write_obj(self.path("ragged.obj"), points, ragged)
+        record = self.record("uniformize", self.path("ragged.obj"), "-o", self.path("cut.obj"))
+        self.assertEqual(record["map"]["flipped"], 0)
+        self.assertGreater(record["split"]["edges"], 0)
+        self.assertIn("edges_split", [warning["kind"] for warning in record["warning_details"]])
+        for generator in record["hyperbolic"]["generators"]:
+            self.assertLess(max(generator["vertices"]), len(points))
+
     def test_uniformize_and_twist(self):
         record = self.record("uniformize", self.path("a.obj"), "-o", self.path("cut.obj"), "--loops", self.path("loop"))
         metric = record["hyperbolic"]
