@@ -3,6 +3,7 @@
 #include <beltrami/base/error.h>
 #include <beltrami/io/atomic_file.h>
 #include <beltrami/io/write_mesh.h>
+#include <beltrami/locate/point_at.h>
 #include <beltrami/registration/nearest_places.h>
 #include <beltrami/registration/overlay.h>
 #include <beltrami/registration/transfer.h>
@@ -221,13 +222,14 @@ class Transfer final : public Command {
     }
 
     void write_carried_mesh(const Direction& way) {
-        Mesh mesh = cli::load(mesh_, record_.warnings);
+        MeshInput input = MeshInputOptions().load_polygons(mesh_, record_.warnings);
+        Mesh& mesh = input.mesh;
         Positions points(mesh.vertex_count(), 3);
-        for (int v = 0; v < mesh.vertex_count(); ++v) points.row(v) = mesh.point(v);
+        for (int v = 0; v < mesh.vertex_count(); ++v) points.row(v) = input.unit * mesh.point(v);
         const std::vector<MeshPoint> places = way(nearest(way, points));
         for (int v = 0; v < mesh.vertex_count(); ++v) points.row(v) = point_on(way, places[v]);
         mesh.positions = points;
-        write_mesh(output_, {mesh, {}, {}, {}, {}, {}});
+        write_mesh(output_, {mesh, {}, {}, {}, input.attributes, {}});
     }
 
     std::vector<MeshPoint> nearest(const Direction& way, const Positions& points) {
@@ -240,9 +242,7 @@ class Transfer final : public Command {
     }
 
     static Eigen::Vector3d point_on(const Direction& way, const MeshPoint& place) {
-        Eigen::Vector3d point = Eigen::Vector3d::Zero();
-        for (int i = 0; i < 3; ++i) point += place.barycentric[i] * way.to().point(place.vertices[i]);
-        return way.to_unit() * point;
+        return way.to_unit() * point_at(way.to(), place);
     }
 
     std::string source_, target_, places_, output_, values_, face_values_, points_, polyline_, mesh_;

@@ -284,6 +284,16 @@ class Register(Command):
         out, _, _ = read_obj(self.path("out.obj"))
         carried, _, _ = read_obj(self.path("carried.obj"))
         np.testing.assert_allclose(carried, out, atol=1e-9)
+        # Its colours and its polygons go along.
+        lines = pathlib.Path(self.path("a.obj")).read_text().splitlines()
+        coloured = [line + f" {i % 3 / 2} 0.25 1" if line.startswith("v ") else line for i, line in enumerate(lines)]
+        pathlib.Path(self.path("coloured.obj")).write_text("\n".join(coloured) + "\nf 1 2 3 4 5\n")
+        self.run_command(*arguments[:-1], self.path("carried.obj"), "--mesh", self.path("coloured.obj"))
+        carried = pathlib.Path(self.path("carried.obj")).read_text().splitlines()
+        colours = [[float(x) for x in line.split()[4:]] for line in carried if line.startswith("v ")]
+        wanted = [[float(x) for x in line.split()[4:]] for line in coloured if line.startswith("v ")]
+        np.testing.assert_allclose(colours, wanted)
+        self.assertEqual([len(line.split()) for line in carried if line.startswith("f ")][-1], 6)
         self.run_command("uniformize", self.path("a.obj"), "-o", self.path("textured.obj"))
         self.run_command("transfer", self.path("textured.obj"), self.path("b.obj"), "--places", places, "-o",
                          self.path("on_b.obj"), "--texture")
@@ -312,6 +322,18 @@ class Register(Command):
                     self.assertAlmostEqual(record["map"]["k"], k, delta=2e-3)
                     self.assertLess(record["registration"]["by_phi"]["std"], .027)
                 self.assertAlmostEqual(there["map"]["k"], returned["map"]["k"], delta=1e-3)
+
+    @unittest.skipUnless((CASES / "landmarks_hand_closed_hippocampus_8.txt").exists(), "no real meshes")
+    def test_a_start_goes_in_parts_where_the_mesh_cannot_follow(self):
+        points, _, faces = read_obj(str(MESHES / "hippocampus.obj"))
+        write_obj(self.path("wide.obj"), points * [1, 3, 1], faces)
+        vertices = np.loadtxt(CASES / "landmarks_hand_closed_hippocampus_8.txt", dtype=int)[:, 1]
+        same = self.write_text("same.txt", np.stack([vertices, vertices], 1).tolist())
+        record = self.record("register", str(MESHES / "hippocampus.obj"), self.path("wide.obj"), "--landmarks", same,
+                             "-o", self.path("out.ply"))
+        self.assertEqual(record["map"]["flipped"], 0)
+        self.assertAlmostEqual(record["map"]["k"], .2540, delta=1e-3)
+        self.assertAlmostEqual(record["registration"]["inverse_k"], .2540, delta=2e-3)
 
 
 if __name__ == "__main__":

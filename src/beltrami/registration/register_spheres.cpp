@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <string>
 
 #include <Eigen/Geometry>
@@ -10,13 +11,17 @@
 #include <beltrami/base/error.h>
 #include <beltrami/charts/chart_places.h>
 #include <beltrami/registration/sphere_locator.h>
+#include <beltrami/teichmuller/sphere_iteration.h>
 #include <beltrami/teichmuller/sphere_problem.h>
+#include <beltrami/unfold/sphere_repair.h>
 
 namespace beltrami {
 
 namespace {
 
 constexpr double kLeastLimb = 1e-3;  // on the sphere, of a limb that a landmark is in
+constexpr double kAgreement = 5e-4;  // of k and that of the inverse map
+constexpr int kStepsOfInverse = 8;   // where they do not agree
 
 template <class Call>
 auto of_surface(const char* name, Call&& call) {
@@ -47,7 +52,9 @@ std::vector<Positions> stops(std::span<const SurfaceWaypoint> waypoints, std::sp
     return result;
 }
 
-/// k of the map back, which takes every vertex of the target to its place in the source's sphere.
+/// k of the map back, which takes every vertex of the target to its place in the source's sphere. A c-step finds it of
+/// the map as it is sampled there; where that is far from k of the map, a few steps of the iteration first: it may only
+/// have been sampled too coarsely.
 /// @param places of these vertices on the source
 double k_of_inverse(const Surface& target, std::span<const SurfaceLandmark> landmarks, const SphereRegistration& found,
                     std::span<const MeshPoint> places, int cluster_count) {
@@ -59,8 +66,25 @@ double k_of_inverse(const Surface& target, std::span<const SurfaceLandmark> land
         if (*std::max_element(place.barycentric.begin(), place.barycentric.end()) == 1)
             back.row(vertices.back()) = found.source_sphere.positions.row(landmark.vertex);
     }
-    SphereProblem problem(target, found.target_sphere.positions, vertices, cluster_count);
-    return problem.coefficient_step(beltrami_coefficient(target.operators, back, back)).k;
+    const Positions& sphere = found.target_sphere.positions;
+    SphereProblem problem(target, sphere, vertices, cluster_count);
+    const double sampled = problem.coefficient_step(beltrami_coefficient(target.operators, back, back)).k;
+    if (std::abs(sampled - found.map.k) < kAgreement) return sampled;
+    const SphereFaces faces(target);
+    if (!faces.flipped(back).empty() && !repair_sphere_map(target, faces, back, vertices).flipped.empty())
+        return sampled;
+    ExtremalSphereOptions few;
+    few.cluster_count = cluster_count;
+    few.max_iterations = kStepsOfInverse;
+    const Positions images = back(vertices, Eigen::all);
+    const SphereLandmarks held{vertices, images,
+                               Eigen::VectorXd::Constant(images.rows(), std::numeric_limits<double>::infinity())};
+    try {
+        return iterate_on_sphere(target, problem, sphere, back, held, few).last.k;
+    } catch (const Error& error) {
+        if (error.cause() == Cause::cancelled) throw;
+        return sampled;  // a check that cannot be made is no fault of the map
+    }
 }
 
 /// @throw Error bad_boundary for a landmark of four or more around which a thousandth of the surface lies within 1e-3

@@ -27,8 +27,9 @@ struct RegistrationOptions {
 struct SphereRegistration : CarriedSurface {
     SphereMap source_sphere, target_sphere;
     ExtremalSphereMap map;  ///< of the source to the target's sphere: k, φ, bounds, |μ|
-    /// k of the inverse map, sampled at the target's vertices, by a c-step with the target's own differentials; empty
-    /// if not wanted or if there are fewer than four landmarks.
+    /// k of the inverse map, sampled at the target's vertices, by a c-step with the target's own differentials,
+    /// where that is off by 5e-4 and more after a few steps of the iteration there; empty if not wanted or if there are
+    /// fewer than four landmarks.
     std::optional<double> inverse_k;
     Warnings warnings;  ///< of both maps to the sphere and of the map
 };

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include <beltrami/base/error.h>
+#include <beltrami/solve/sphere_map_step.h>
 #include <beltrami/sphere/moebius_fit.h>
 #include <beltrami/starts/landmark_flow.h>
 #include <beltrami/teichmuller/sphere_iteration.h>
@@ -18,6 +20,9 @@ namespace beltrami {
 namespace {
 
 constexpr int kFlowSteps = 20;
+constexpr int kRelaxing = 3;  // steps of the barrier between two parts of the way of a start that is led
+constexpr double kMostPart = 0.5, kLeastPart = 1 / 512.;  // of that way from one stop to the next
+constexpr int kMostParts = 100;
 constexpr double kLeastSeparation = 1e-3;  // of landmarks on the sphere
 
 std::string short_number(double x) {
@@ -104,35 +109,87 @@ bool moved_across(const Positions& from, const Positions& to, const Positions& l
     return false;
 }
 
+/// The landmarks put where they are to be, and folds opened.
+struct Mended {
+    Positions points;
+    std::vector<int> folded;  ///< before
+    bool success = true;
+};
+
+Mended mended(const Surface& source, const SphereFaces& faces, const std::vector<int>& vertices,
+              const Positions& images, Positions points) {
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+        points.row(vertices[i]) = images.row(static_cast<Eigen::Index>(i));
+    Mended result{std::move(points), {}, true};
+    result.folded = faces.flipped(result.points);
+    if (result.folded.empty()) return result;
+    Positions repaired = result.points;
+    result.success = repair_sphere_map(source, faces, repaired, vertices).flipped.empty() &&
+                     !moved_across(result.points, repaired, images);
+    if (result.success) result.points = std::move(repaired);
+    return result;
+}
+
+/// The flow in parts, after each of which the map is made less distorted with the landmarks held: it then goes farther
+/// than a mesh can follow the flow by itself. No face is ever flipped, so that the class stays that of the flow.
+std::optional<Positions> led_start(const Surface& source, const SphereFaces& faces, const std::vector<int>& vertices,
+                                   const std::vector<Positions>& stops, Positions points) {
+    const Positions first = points(vertices, Eigen::all);
+    Mended begin = mended(source, faces, vertices, first, std::move(points));
+    if (!begin.success) return {};
+    points = std::move(begin.points);
+    const Eigen::VectorXcd conformal = Eigen::VectorXcd::Zero(source.operators.sample_count());
+    for (std::size_t leg = 0; leg + 1 < stops.size(); ++leg) {
+        double time = 0, part = kMostPart;
+        for (int parts = 0; time < 1; ++parts) {
+            if (part < kLeastPart || parts == kMostParts) return {};
+            const double next = std::min(1.0, time + part);
+            const Positions images = along_great_circles(stops[leg], stops[leg + 1], next);
+            const std::vector<Positions> way{along_great_circles(stops[leg], stops[leg + 1], time), images};
+            Mended moved = mended(source, faces, vertices, images, landmark_flow(points, way, kFlowSteps));
+            if (!moved.success) {
+                part /= 2;
+                continue;
+            }
+            SphereMapStep step(source, vertices, std::move(moved.points));
+            for (int i = 0; i < kRelaxing; ++i) step.solve(conformal, 0);
+            points = step.points();
+            time = next;
+            part = std::min(2 * part, kMostPart);
+        }
+    }
+    return points;
+}
+
 /// Möbius map, flow, repair.
 Positions start_map(const Surface& source, const Positions& on_sphere, const SphereLandmarks& landmarks,
                     const ExtremalSphereOptions& options, Warnings& warnings) {
     const std::vector<int>& vertices = landmarks.vertices;
-    Positions points = options.start ? *options.start : moebius_fitted(on_sphere, vertices, landmarks.images);
-    for (Eigen::Index v = 0; v < points.rows(); ++v) points.row(v).normalize();
-    if (vertices.size() > 3 || options.start) {
-        const std::vector<Positions> stops =
-            stops_between(points(vertices, Eigen::all), options.waypoints, landmarks.images);
-        points = landmark_flow(std::move(points), stops, kFlowSteps);
-    }
-    for (std::size_t i = 0; i < vertices.size(); ++i)
-        points.row(vertices[i]) = landmarks.images.row(static_cast<Eigen::Index>(i));
+    Positions first = options.start ? *options.start : moebius_fitted(on_sphere, vertices, landmarks.images);
+    for (Eigen::Index v = 0; v < first.rows(); ++v) first.row(v).normalize();
+    std::vector<Positions> stops;
+    if (vertices.size() > 3 || options.start)
+        stops = stops_between(first(vertices, Eigen::all), options.waypoints, landmarks.images);
     const SphereFaces faces(source);
-    const std::vector<int> folded = faces.flipped(points);
-    if (folded.empty()) return points;
-    Positions repaired = points;
-    const SphereRepair repair = repair_sphere_map(source, faces, repaired, vertices);
-    if (!repair.flipped.empty() || moved_across(points, repaired, landmarks.images))
-        throw Error(Cause::bad_boundary,
-                    "the start folds: " + std::to_string(folded.size()) +
-                        " faces are flipped once the landmarks are at their images, and cannot be unfolded",
-                    "the landmarks may contradict each other, or the mesh may be too coarse around them: check their "
-                    "pairs, leave some out, or give another start or way",
-                    {Things::faces, folded});
-    warnings.push_back({WarningKind::unfolded, std::to_string(folded.size()) +
-                                                   " faces were flipped in the start, and vertices around them were "
-                                                   "moved"});
-    return repaired;
+    Mended start = mended(source, faces, vertices, landmarks.images,
+                          stops.empty() ? first : landmark_flow(first, stops, kFlowSteps));
+    if (!start.success) {
+        std::optional<Positions> led =
+            stops.empty() ? std::nullopt : led_start(source, faces, vertices, stops, std::move(first));
+        if (!led)
+            throw Error(Cause::bad_boundary,
+                        "the start folds: " + std::to_string(start.folded.size()) +
+                            " faces are flipped once the landmarks are at their images, and cannot be unfolded",
+                        "the landmarks may contradict each other, or the mesh may be too coarse around them: check "
+                        "their pairs, leave some out, or give another start or way",
+                        {Things::faces, start.folded});
+        return *std::move(led);
+    }
+    if (!start.folded.empty())
+        warnings.push_back({WarningKind::unfolded, std::to_string(start.folded.size()) +
+                                                       " faces were flipped in the start, and vertices around them "
+                                                       "were moved"});
+    return std::move(start.points);
 }
 
 /// What the map comes to, whatever found it.
