@@ -74,7 +74,7 @@ const Page& sphere() {
                            "# Gallery: the sphere\n\n"
                            "Maps of closed surfaces of genus 0, made by `./run gallery`. Seconds on a busy "
                            "machine.\n\n",
-                           {{"spheres", spheres}, {"registrations", registrations}}};
+                           {{"spheres", spheres}, {"registrations", registrations}, {"transfers", transfers}}};
     return page;
 }
 

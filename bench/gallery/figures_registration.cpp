@@ -2,11 +2,18 @@
 // folder BELTRAMI_MESHES with landmarks of the folder "cases" beside it, if they are there.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <optional>
 
 #include <beltrami/io/number_lists.h>
+#include <beltrami/io/write_mesh.h>
+#include <beltrami/locate/point_at.h>
 #include <beltrami/mesh/submesh.h>
+#include <beltrami/mesh/texture_map.h>
 #include <beltrami/meshing/face_split.h>
+#include <beltrami/registration/overlay.h>
 #include <beltrami/registration/register_spheres.h>
+#include <beltrami/registration/transferred_polyline.h>
 
 #include "gallery/sliding.h"
 #include "problems/noisy_copy.h"
@@ -62,24 +69,38 @@ std::vector<std::vector<int>> stars(const Mesh& mesh, const std::vector<SurfaceL
     return result;
 }
 
-void add_pair(Output& output, Figure& figure, Table& table, const Pair& files) {
-    const auto from = scan_path(files.source), to = scan_path(files.target);
-    if (!from || !to) return;
-    const std::filesystem::path list = from->parent_path().parent_path() / "cases" / files.landmarks;
-    if (!std::filesystem::exists(list)) return;
-    const Surface source = surface_of(*from), target = surface_of(*to);
+/// Two scans with their landmarks.
+struct LoadedPair {
+    std::string from, to;
+    Surface source, target;
     std::vector<SurfaceLandmark> landmarks;
+};
+
+/// Nothing without the files.
+std::optional<LoadedPair> load(const Pair& files) {
+    const auto from = scan_path(files.source), to = scan_path(files.target);
+    if (!from || !to) return {};
+    const std::filesystem::path list = from->parent_path().parent_path() / "cases" / files.landmarks;
+    if (!std::filesystem::exists(list)) return {};
+    LoadedPair pair{from->stem().string(), to->stem().string(), surface_of(*from), surface_of(*to), {}};
     for (const auto& row : read_rows(list.string(), 2, "a landmark"))
-        landmarks.push_back({static_cast<int>(row[0]), place_of_vertex(target.mesh, static_cast<int>(row[1]))});
+        pair.landmarks.push_back(
+            {static_cast<int>(row[0]), place_of_vertex(pair.target.mesh, static_cast<int>(row[1]))});
+    return pair;
+}
+
+void add_pair(Output& output, Figure& figure, Table& table, const Pair& files) {
+    const std::optional<LoadedPair> pair = load(files);
+    if (!pair) return;
+    const auto& [from, to, source, target, landmarks] = *pair;
     const SphereRegistration found = register_spheres(source, target, landmarks);
     const Distortion& d = found.map.distortion;
-    table.rows.push_back({from->stem().string(), to->stem().string(), std::to_string(landmarks.size()),
-                          std::to_string(source.mesh.face_count()), number(found.map.k), number(*found.inverse_k),
-                          number(found.map.K_lower), number(found.map.K), number(found.map.weighted_deviation),
-                          number(d.max, 3), std::to_string(d.flipped.size()),
+    table.rows.push_back({from, to, std::to_string(landmarks.size()), std::to_string(source.mesh.face_count()),
+                          number(found.map.k), number(*found.inverse_k), number(found.map.K_lower), number(found.map.K),
+                          number(found.map.weighted_deviation), number(d.max, 3), std::to_string(d.flipped.size()),
                           std::to_string(found.in_space.flipped.size()), std::to_string(found.unresolved.size()),
                           std::to_string(found.map.iterations)});
-    const std::string name = "register_" + from->stem().string() + "_" + std::to_string(landmarks.size());
+    const std::string name = "register_" + from + "_" + std::to_string(landmarks.size());
     const Eigen::VectorXcd nowhere = Eigen::VectorXcd::Zero(source.mesh.vertex_count());
     Mesh image = source.mesh;
     image.positions = found.positions;
@@ -89,15 +110,48 @@ void add_pair(Output& output, Figure& figure, Table& table, const Pair& files) {
     const double shown = std::clamp(3 * found.map.k, 0.05, 1.0);
     const auto marked = stars(source.mesh, landmarks);
     Picture picture{name,
-                    from->stem().string() + " carried onto " + to->stem().string() + " with " +
-                        std::to_string(landmarks.size()) + " landmarks (the edges at them are drawn).",
+                    from + " carried onto " + to + " with " + std::to_string(landmarks.size()) +
+                        " landmarks (the edges at them are drawn).",
                     {}};
-    picture.panels.push_back(
-        surface_panel(before, from->stem().string(), "mu", files.azimuth, files.elevation, 1, shown, marked));
-    picture.panels.push_back(surface_panel(after, "its faces on " + to->stem().string(), "mu", files.target_azimuth,
+    picture.panels.push_back(surface_panel(before, from, "mu", files.azimuth, files.elevation, 1, shown, marked));
+    picture.panels.push_back(surface_panel(after, "its faces on " + to, "mu", files.target_azimuth,
                                            files.target_elevation, 1, shown, marked));
     picture.panels.push_back(histogram_panel({{"", before}}, "", {}, shown));
     figure.pictures.push_back(std::move(picture));
+}
+
+/// The way from point to point, and its ends beside.
+double length_of(const Mesh& mesh, const std::vector<MeshPoint>& places) {
+    double sum = 0;
+    for (std::size_t i = 1; i < places.size(); ++i)
+        sum += (point_at(mesh, places[i]) - point_at(mesh, places[i - 1])).norm();
+    return sum;
+}
+
+/// The largest distance in space of places from others, one by one.
+double farthest(const Mesh& mesh, const std::vector<MeshPoint>& a, const std::vector<MeshPoint>& b) {
+    double largest = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        largest = std::max(largest, (point_at(mesh, a[i]) - point_at(mesh, b[i])).norm());
+    return largest;
+}
+
+/// Writes a surface with a texture for its plane, and a line on it.
+/// @return its panel
+nlohmann::json textured_panel(Output& output, const std::string& name, const std::string& title, const Mesh& mesh,
+                              const TextureCoordinates& texture, const std::vector<MeshPoint>& line, double azimuth,
+                              double elevation) {
+    Mesh cut = cut_along_seams(mesh, texture);
+    const Eigen::Index n = cut.positions.rows(), more = static_cast<Eigen::Index>(line.size());
+    cut.positions.conservativeResize(n + more, 3);
+    cut.positions.bottomRows(more) = points_at(mesh, line);
+    Eigen::VectorXcd plane(n + more);
+    for (Eigen::Index v = 0; v < n; ++v) plane[v] = {texture.points(v, 0), texture.points(v, 1)};
+    plane.tail(more).setConstant(plane[0]);
+    std::vector<int> chain(line.size());
+    std::iota(chain.begin(), chain.end(), static_cast<int>(n));
+    return surface_panel(output.write(name, cut, plane, Eigen::VectorXd::Zero(mesh.face_count())), title, "checker",
+                         azimuth, elevation, 30, 1, {chain});
 }
 
 /// A scan with a boundary onto its own noisy copy, by landmarks that are met and by softer and softer ones.
@@ -166,6 +220,78 @@ Figure registrations(Output& output) {
         add_pair(output, figure, table, pair);
     figure.tables.push_back(std::move(table));
     add_noisy_copy(output, figure, "alex_3.obj", 90, 0);
+    return figure;
+}
+
+Figure transfers(Output& output) {
+    Figure figure{"Transfer",
+                  "What belongs to one surface, on the other, along a registration ([transfer](register.md)): a "
+                  "texture, a closed polyline of geodesics, points and values of faces."};
+    const Pair files{"hand_closed.obj", "hippocampus.obj", "landmarks_hand_closed_hippocampus_8.txt", -90, 70, 30, 20};
+    const std::optional<LoadedPair> pair = load(files);
+    if (!pair) return {};
+    Mesh source = pair->source.mesh;
+    const Mesh& target = pair->target.mesh;
+    source.texture = texture_of_map(source, source.positions.leftCols(2));
+    const SphereRegistration found = register_spheres(pair->source, pair->target, pair->landmarks);
+    const SurfaceCorrespondence map(source, target, found.target_sphere.positions, found.places);
+
+    // Through five of the landmarks, and back to the first.
+    std::vector<MeshPoint> corners;
+    for (const int i : {0, 1, 2, 3, 4, 0})
+        corners.push_back(place_of_vertex(source, pair->landmarks[static_cast<std::size_t>(i)].vertex));
+    const TransferredPolyline line = transferred_polyline(map, corners);
+    const std::vector<MeshPoint> on_source = map.back(line.places);
+    const TransferredPolyline returned = transferred_polyline(map, line.places, TransferWay::to_source);
+
+    Table table{pair->from + " and " + pair->to +
+                    ", with the map of the table above. Distances as parts of the diagonal of the surface on which "
+                    "they are",
+                {"what", "there", "and back"},
+                {}};
+    const auto diagonal = [](const Mesh& mesh) {
+        return (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).norm();
+    };
+    std::vector<MeshPoint> middles;
+    for (int f = 0; f < source.face_count(); ++f) {
+        const auto face = source.faces[f];
+        middles.push_back({f, {face[0], face[1], face[2]}, {1 / 3., 1 / 3., 1 / 3.}});
+    }
+    table.rows.push_back(
+        {"middles of all faces", std::to_string(middles.size()) + " points",
+         "off by at most " + scientific(farthest(source, map.back(map.forward(middles)), middles) / diagonal(source))});
+    table.rows.push_back({"polyline of " + std::to_string(corners.size()) + " points, " +
+                              number(length_of(source, on_source) / diagonal(source), 3) + " long",
+                          std::to_string(line.places.size()) + " points, " +
+                              number(length_of(target, line.places) / diagonal(target), 3) + " long",
+                          std::to_string(returned.places.size()) + " points, " +
+                              number(length_of(source, returned.places) / diagonal(source), 3) + " long"});
+    // What a unit of area of the source becomes: its sum is the source's area.
+    Positions density(target.face_count(), 1);
+    const Overlay both = overlay(map);
+    density.setZero();
+    double area = 0;
+    for (int f = 0; f < source.face_count(); ++f) area += face_vector_area(source, f).norm();
+    for (const Overlay::Piece& piece : both.pieces)
+        density(piece.target_face, 0) += piece.part_of_source * face_vector_area(source, piece.source_face).norm();
+    const Positions back =
+        transferred_face_values(map, Positions::Ones(target.face_count(), 1), TransferWay::to_source);
+    table.rows.push_back({"areas of faces, by " + std::to_string(both.pieces.size()) + " pieces of the overlay",
+                          "their sum is off by " + scientific(std::abs(density.sum() / area - 1)),
+                          "of values 1 by " + scientific((back.array() - 1).abs().maxCoeff())});
+    figure.tables.push_back(std::move(table));
+
+    Picture picture{"transfer_hand_closed",
+                    "A checkerboard on " + pair->from +
+                        ", as seen from above, and a closed polyline through five of "
+                        "the landmarks; both on " +
+                        pair->to + ".",
+                    {}};
+    picture.panels.push_back(textured_panel(output, "transfer_from", pair->from, source, *source.texture, on_source,
+                                            files.azimuth, files.elevation));
+    picture.panels.push_back(textured_panel(output, "transfer_to", "on " + pair->to, target, transferred_texture(map),
+                                            line.places, files.target_azimuth, files.target_elevation));
+    figure.pictures.push_back(std::move(picture));
     return figure;
 }
 

@@ -213,6 +213,7 @@ Figure sliding_distance_scans(Output& output);  ///< of scans, if the folder BEL
 
 Figure spheres(Output& output);        ///< closed surfaces, scans if the folder BELTRAMI_MESHES has them
 Figure registrations(Output& output);  ///< closed surfaces carried onto each other with landmarks
+Figure transfers(Output& output);      ///< a texture, a polyline, points and values, from one to another
 Figure tori(Output& output);           ///< flat metrics of tori and the maps between them
 Figure genus(Output& output);          ///< exact maps of square-tiled surfaces, deformed double tori
 
