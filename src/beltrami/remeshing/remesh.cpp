@@ -31,7 +31,7 @@ constexpr double kDistanceFactor = 1.4;  // up to which the distance allowed is 
 // Small angles are opened towards so much more than the one below which 1 % are, some steps at a time, until so many
 // times in a row it gained hardly anything.
 constexpr double kOpenedBy = 3, kOpeningGain = 0.05;  // degrees
-constexpr int kOpeningRounds = 30, kOpeningSteps = 3, kFutileOpenings = 4;
+constexpr int kOpeningRounds = 30, kOpeningSteps = 2, kFutileOpenings = 3;
 constexpr double kDegree = std::numbers::pi / 180;
 
 double diagonal_of(const Mesh& mesh) {
@@ -164,19 +164,20 @@ class Rounds {
     }
 
     /// Opens small angles of a map that keeps both, as long as the smallest or the one below which 1 % are grows and
-    /// neither shrinks.
+    /// neither ends smaller than it began.
     void open_angles(TangentialMap& map) const {
         TargetMap best = map.map();
-        AngleStatistics most = angles(map);
+        const AngleStatistics first = angles(map);
+        AngleStatistics most = first;
         for (int round = 0, futile = 0; round < kOpeningRounds && futile < kFutileOpenings; ++round) {
             map.open_angles((most.one_percent + kOpenedBy) * kDegree);
             map.relax(options_.power, kOpeningSteps, kRoundTolerance);
             const bool kept = draw_back(map).empty();
             const AngleStatistics now = angles(map);
-            const bool gains = now.one_percent >= most.one_percent && now.smallest >= most.smallest &&
-                               now.one_percent + now.smallest >= most.one_percent + most.smallest + kOpeningGain;
+            const bool gains = now.one_percent + now.smallest >= most.one_percent + most.smallest + kOpeningGain;
             if (!gains) ++futile;
-            if (!gains || !kept) continue;
+            const bool shrinks = now.one_percent < first.one_percent || now.smallest < first.smallest;
+            if (!gains || !kept || shrinks) continue;
             most = now;
             best = map.map();
             futile = 0;
@@ -272,7 +273,9 @@ RemeshedSurface fast(const Surface& surface, const CornerElements& elements, con
     result.settled = true;
     conclude(surface, target, result);
     if (result.unresolved.size() > result.opposed_before.size())
-        throw Error(Cause::not_solved, "one linear solve folds " + std::to_string(result.unresolved.size()) + " faces",
+        throw Error(Cause::not_solved,
+                    "one linear solve folds " + std::to_string(result.unresolved.size()) +
+                        (result.unresolved.size() == 1 ? " face" : " faces"),
                     "take the iteration", {Things::faces, result.unresolved});
     return result;
 }
