@@ -307,6 +307,7 @@ void SlidingSolver::open_conformal_folds(ExtremalMap& result) {
         result.map = std::move(map);
         result.distortion = distortion(source().operators, result.map);
         result.folds_removed = true;
+        boundary_->adopt(result.map);
     };
     for (const Eigen::VectorXcd& map : {result.map, begun_.start}) {
         LocalUnfolding opened = unfold_locally(source(), freedoms, map);
@@ -322,7 +323,6 @@ void SlidingSolver::open_conformal_folds(ExtremalMap& result) {
     result.factorizations += opened.factorizations;
     if (!opened.fold_free) return;
     take(opened.map.array() * circle.radius() + circle.centre());
-    boundary_->adopt(result.map);
 }
 
 /// How far the map obeys its conditions.

@@ -1,10 +1,12 @@
 // ExtremalSolver while boundaries slide: pins are dragged, prescribed values move.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <numbers>
 
 #include <beltrami/base/error.h>
+#include <beltrami/teichmuller/extremal_map.h>
 #include <beltrami/teichmuller/extremal_solver.h>
 
 #include "problems/mixed_problems.h"
@@ -212,6 +214,55 @@ TEST(SlidingSolver, EveningKeepsWhatSlidesAndLowersTheSpread) {
     EXPECT_LT(even.distortion.standard_deviation, 0.7 * plain.distortion.standard_deviation);
     EXPECT_NEAR(even.k, plain.k, 1e-3);
     for (const int v : problem.source.topology.boundary_loops[0]) EXPECT_EQ(even.map[v], plain.map[v]);
+}
+
+/// A strip ten times as long as it is wide, whose ends a conformal map crowds to 1e-6 of the circle.
+Surface strip() {
+    constexpr int kLong = 40, kWide = 4;
+    Mesh mesh;
+    mesh.positions.resize((kLong + 1) * (kWide + 1), 2);
+    for (int j = 0; j <= kWide; ++j)
+        for (int i = 0; i <= kLong; ++i) {
+            const bool inner = i > 0 && i < kLong && j > 0 && j < kWide;
+            const double dx = inner ? 0.25 * std::sin(12.9898 * i + 78.233 * j) : 0,
+                         dy = inner ? 0.25 * std::cos(39.425 * i - 17.31 * j) : 0;
+            mesh.positions.row(j * (kLong + 1) + i) << 10 * (i + dx) / kLong, (j + dy) / kWide;
+        }
+    for (int j = 0; j < kWide; ++j)
+        for (int i = 0; i < kLong; ++i) {
+            const int a = j * (kLong + 1) + i, c = a + kLong + 2;
+            mesh.faces.add({a, a + 1, c});
+            mesh.faces.add({a, c, c - 1});
+        }
+    return Surface(mesh);
+}
+
+TEST(SlidingSolver, OpensFoldsOfAConformalMap) {
+    const Surface source = strip();
+    const Constraints onto(TargetDomain{TargetCurve::circle({1, 2}, 0.5), {}});
+    ExtremalOptions as_it_is;
+    as_it_is.remove_folds = false;
+    const ExtremalMap folded = extremal_map(source, onto, as_it_is), opened = extremal_map(source, onto);
+    ASSERT_FALSE(folded.distortion.flipped.empty());
+    EXPECT_FALSE(folded.folds_removed);
+    EXPECT_TRUE(opened.folds_removed);
+    EXPECT_TRUE(opened.distortion.flipped.empty());
+    EXPECT_EQ(opened.termination, Termination::converged);
+    EXPECT_EQ(opened.K, 1);
+    EXPECT_LT(opened.K_max, 20);
+    EXPECT_LT(opened.distortion.mean, 0.35);
+    EXPECT_LT(opened.curve_residual, 1e-12);
+    // The rim goes round the circle once, in its order.
+    const auto& loop =
+        opened.split ? topology(opened.split->mesh).boundary_loops[0] : source.topology.boundary_loops[0];
+    double turn = 0;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        const Complex here = opened.map[loop[i]] - Complex(1, 2),
+                      next = opened.map[loop[(i + 1) % loop.size()]] - Complex(1, 2);
+        EXPECT_GT(std::arg(next / here), 0) << i;
+        turn += std::arg(next / here);
+    }
+    EXPECT_NEAR(turn, 2 * std::numbers::pi, 1e-9);
 }
 
 }  // namespace
