@@ -34,6 +34,8 @@ constexpr double kRoughRounding = 0.005, kRoughStep = 0.05;
 constexpr double kWithinBracket = 0.01;
 /// … and with poles, of which φ tells some apart by single edges only: steps cost most there, and it wanders.
 constexpr double kWithinBracketAtPoles = 0.03;
+/// … and where values crowd, once evening out has not helped: further steps turn φ to and fro at single faces.
+constexpr double kWithinBracketOfProducts = 3e-4;
 /// The bracket of a smooth problem, as part of K, times the number of samples, is smaller (a bump's .7).
 constexpr double kTightPerSample = 4;
 /// From here on coefficients of faces are too noisy for K even there.
@@ -170,7 +172,8 @@ ExtremalMap PrescribedSolver::solve() {
 void PrescribedSolver::run() {
     using Evening = ExtremalOptions::Evening;
     evened_ = false;
-    if ((problem_.singular() || poles_.withheld()) && !problem_.jumps() && options_.evening != Evening::never) {
+    if ((problem_.singular() || poles_.withheld() || poles_.products()) && !problem_.jumps() &&
+        options_.evening != Evening::never) {
         iterate_roughly();
         if (converged_ && needs_poles()) return run_with_poles();
         Finish early = finish();
@@ -244,6 +247,7 @@ HamiltonIteration::Options PrescribedSolver::adapted(HamiltonIteration::Options 
         how.within_bracket = problem_.singular() ? kWithinBracketAtPoles : kWithinBracket;
         how.tight = kTightPerSample / source_.operators.sample_count();
     }
+    if (poles_.products()) how.within_bracket = kWithinBracketOfProducts;
     return how;
 }
 

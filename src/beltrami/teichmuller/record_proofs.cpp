@@ -4,6 +4,7 @@
 #include <limits>
 
 #include <beltrami/certificate/proved_bounds.h>
+#include <beltrami/certificate/refined_pair.h>
 #include <beltrami/certificate/refined_problem.h>
 
 namespace beltrami {
@@ -12,8 +13,19 @@ namespace {
 
 /// Estimates of K that are below a proved bound by no more than this part are as good as the mesh lets them be.
 constexpr double kErrorOfEstimate = 0.01;
-/// Meshes of more faces are not subdivided for a bound.
-constexpr int kMostFinerFaces = 20'000;
+/// Where the bracket is no wider than this part of K no mesh is refined.
+constexpr double kNarrow = 0.002;
+
+/// The bound by pairs, where K is a larger one.
+void raise_pair(double K, ExtremalMap& result) {
+    if (!(K > 1)) return;
+    const auto coarser = std::find_if(result.bounds.begin(), result.bounds.end(),
+                                      [](const Bound& bound) { return bound.kind == Bound::Kind::pair; });
+    if (coarser == result.bounds.end())
+        result.bounds.push_back({Bound::Kind::pair, K, Bound::Of::extremal, true});
+    else
+        coarser->K = std::max(coarser->K, K);
+}
 
 }  // namespace
 
@@ -67,23 +79,14 @@ void record_proofs(const Surface& source, const BoundaryCondition& boundary, con
 }
 
 void record_finer_pair(const Surface& source, const BoundaryCondition& boundary, ExtremalMap& result) {
-    if (!all_triangles(source.mesh) || source.mesh.face_count() > kMostFinerFaces) return;
-    const RefinedProblem fine = refined_problem(source, boundary);
-    const Eigen::VectorXcd map = fine.interpolated(result.map);
-    double K = 1;
-    for (const auto& image : {image_under(fine.surface, map), filled_image(fine.surface, map)}) {
-        if (!image) continue;
-        const PairBound pair = pair_bound(fine.surface, *image);
-        result.factorizations += pair.factorizations;
-        K = std::max(K, pair.K);
-    }
-    if (!(K > 1)) return;
-    const auto coarser = std::find_if(result.bounds.begin(), result.bounds.end(),
-                                      [](const Bound& bound) { return bound.kind == Bound::Kind::pair; });
-    if (coarser == result.bounds.end())
-        result.bounds.push_back({Bound::Kind::pair, K, Bound::Of::extremal, true});
-    else
-        coarser->K = std::max(coarser->K, K);
+    RefinedPairOptions how;
+    // Where K is no more than what is proved, φ does not show how much more there is.
+    if (result.K > result.K_lower) how.enough = result.K / (1 + kNarrow);
+    const bool refines = all_triangles(source.mesh) && source.mesh.face_count() <= how.most_faces;
+    if (!refines || !(result.K_lower < how.enough)) return;
+    const RefinedPair pair = refined_pair_bound(source, boundary, result.map, how);
+    result.factorizations += pair.factorizations;
+    raise_pair(pair.K, result);
     raise_to_proofs(result);
 }
 

@@ -8,8 +8,8 @@ namespace beltrami {
 void record_proofs(const Surface& source, const BoundaryCondition& boundary, const ExtremalOptions& options,
                    ExtremalMap& result);
 
-/// Adds the pair bound of the midpoint subdivision, which is up to 5 % larger where values crowd, and
-/// raise_to_proofs(). Not of quads, of meshes of more than 20 000 faces and of maps that fold.
+/// Adds the pair bound of refined meshes (refined_pair.h), which is up to 8 % larger where values crowd, and
+/// raise_to_proofs(). Not of quads, of meshes of more than 20 000 faces, nor where the bracket is closed.
 void record_finer_pair(const Surface& source, const BoundaryCondition& boundary, ExtremalMap& result);
 
 /// Raises K_lower_proved, K_lower and K to what the bounds prove; where the K found was clearly lower the termination
