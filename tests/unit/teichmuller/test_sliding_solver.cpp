@@ -253,8 +253,8 @@ TEST(SlidingSolver, OpensFoldsOfAConformalMap) {
     EXPECT_LT(opened.distortion.mean, 0.35);
     EXPECT_LT(opened.curve_residual, 1e-12);
     // The rim goes round the circle once, in its order.
-    const auto& loop =
-        opened.split ? topology(opened.split->mesh).boundary_loops[0] : source.topology.boundary_loops[0];
+    const Topology shape = opened.split ? topology(opened.split->mesh) : source.topology;
+    const std::vector<int>& loop = shape.boundary_loops[0];
     double turn = 0;
     for (std::size_t i = 0; i < loop.size(); ++i) {
         const Complex here = opened.map[loop[i]] - Complex(1, 2),
