@@ -31,7 +31,7 @@ constexpr double kDistanceFactor = 1.4;  // up to which the distance allowed is 
 // Small angles are opened towards so much more than the one below which 1 % are, some steps at a time, until so many
 // times in a row it gained hardly anything.
 constexpr double kOpenedBy = 3, kOpeningGain = 0.05;  // degrees
-constexpr int kOpeningRounds = 30, kOpeningSteps = 2, kFutileOpenings = 3;
+constexpr int kOpeningRounds = 45, kOpeningSteps = 2, kFutileOpenings = 3;
 constexpr double kDegree = std::numbers::pi / 180;
 
 double diagonal_of(const Mesh& mesh) {
