@@ -122,10 +122,7 @@ std::optional<Positions> TargetStep::direction(const TargetEnergy& energy, const
     if (!energy.descends() || !motion_.unheld() || dynamic_cast<const SphereTarget*>(&motion_.target()) == nullptr)
         return motion;
     // Along conformal maps of the target the energy is flat up to the mesh's error, and a step long and without use.
-    Eigen::VectorXd weights = Eigen::VectorXd::Zero(operators_.vertex_count);
-    for (int s = 0; s < operators_.sample_count(); ++s)
-        for (const int v : operators_.stencil(s)) weights[v] += operators_.weights[s];
-    return without_moebius_drift(positions_of(map.points), motion, weights);
+    return without_moebius_drift(positions_of(map.points), motion, vertex_areas(operators_));
 }
 
 TargetStep::Taken TargetStep::step(TargetEnergy& energy, TargetMap& map, double largest) {
@@ -165,8 +162,7 @@ TargetStep::Taken TargetStep::step(TargetEnergy& energy, TargetMap& map, double 
     const TargetMap& from = taken.length > 0 ? trial : map;
     stiffness_ = (stiffness_ / kSlackening).cwiseMax(1);
     hold_ = (hold_.array() < kNoticeable).select(0, hold_ / kSlackening);
-    damping_ = damping_ / kDampingFactor < kLeastDamping ? 0 : damping_ / kDampingFactor;
-    if (taken.length == 0) damping_ = std::max(kHeldUpFactor * kDampingFactor * damping_, kHeldUpDamping);
+    damp(taken.length > 0 ? 1 : 0);  // what shorter steps would add to it stiffness adds to samples alone
     if (taken.length <= kNearlyFull) stiffen(energy, from, *motion);
     if (taken.length < kBlocked && !rejected.points.empty()) hold_flipped(from, rejected);
     return taken;
