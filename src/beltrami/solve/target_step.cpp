@@ -8,8 +8,6 @@
 #include <beltrami/base/error.h>
 #include <beltrami/base/parallel.h>
 #include <beltrami/solve/damping.h>
-#include <beltrami/sphere/moebius_drift.h>
-#include <beltrami/targets/simple_targets.h>
 
 namespace beltrami {
 
@@ -119,10 +117,8 @@ std::optional<Positions> TargetStep::direction(const TargetEnergy& energy, const
         }
     }
     Positions motion = motion_along(place_, ways, solution);
-    if (!energy.descends() || !motion_.unheld() || dynamic_cast<const SphereTarget*>(&motion_.target()) == nullptr)
-        return motion;
-    // Along conformal maps of the target the energy is flat up to the mesh's error, and a step long and without use.
-    return without_moebius_drift(positions_of(map.points), motion, vertex_areas(operators_));
+    if (!energy.descends() || !motion_.unheld()) return motion;
+    return motion_.target().without_drift(positions_of(map.points), std::move(motion), vertex_areas(operators_));
 }
 
 TargetStep::Taken TargetStep::step(TargetEnergy& energy, TargetMap& map, double largest) {

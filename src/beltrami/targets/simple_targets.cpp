@@ -3,6 +3,7 @@
 #include <utility>
 
 #include <beltrami/sphere/centring.h>
+#include <beltrami/sphere/moebius_drift.h>
 
 namespace beltrami {
 
@@ -16,6 +17,10 @@ Target::Point SphereTarget::nearest(const Eigen::Vector3d& point) const {
 
 Target::Points SphereTarget::centred(Points points, const Eigen::VectorXd& weights) const {
     return nearest_points(*this, beltrami::centred(positions_of(points), weights).points);
+}
+
+Positions SphereTarget::without_drift(const Positions& points, Positions motion, const Eigen::VectorXd& weights) const {
+    return without_moebius_drift(points, motion, weights);
 }
 
 Target::Point PlaneTarget::nearest(const Eigen::Vector3d& point) const {

@@ -10,6 +10,8 @@ class SphereTarget final : public Target {
   public:
     Point nearest(const Eigen::Vector3d& point) const override;
     Points centred(Points points, const Eigen::VectorXd& weights) const override;
+    /// Less what the motion has of Möbius maps (sphere/moebius_drift.h).
+    Positions without_drift(const Positions& points, Positions motion, const Eigen::VectorXd& weights) const override;
 };
 
 /// The plane z = 0, seen from above.

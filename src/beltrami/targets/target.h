@@ -41,6 +41,16 @@ class Target {
     /// @param weights #V of the points
     virtual Points centred(Points points, const Eigen::VectorXd& /*weights*/) const { return points; }
 
+    /// Of such maps too: a motion along the surface less what it has of motions that are conformal to first order, by
+    /// least squares. An energy is flat along those up to the mesh's error. Elsewhere the motion as it is.
+    /// @param points  #V×3 of the surface
+    /// @param motion  #V×3, tangent there
+    /// @param weights #V
+    virtual Positions without_drift(const Positions& /*points*/, Positions motion,
+                                    const Eigen::VectorXd& /*weights*/) const {
+        return motion;
+    }
+
     /// The curves that bound the surface, of a mesh in the order of its boundary loops.
     virtual SlideCurves boundary() const { return {}; }
 
