@@ -192,8 +192,7 @@ class CholmodBackend final : public CholeskyBackend {
             factor_ = cholmod_analyze_p(&view, order.data(), nullptr, 0, &common_);
         }
         if (!factor_) fail("the symbolic analysis of a sparse system failed");
-        if (block > 1 && factor_->is_super)
-            multifrontal_.emplace(supernodal_view(), lower.outerIndexPtr(), lower.innerIndexPtr());
+        by_fronts_ = block > 1;
     }
 
     ~CholmodBackend() override {
@@ -210,7 +209,8 @@ class CholmodBackend final : public CholeskyBackend {
         const SerialOpenMp serial;
         const BlasLock lock(factor_->is_super);
         rough_ = Rough::not_made;
-        if (multifrontal_) return factorize_fronts(lower);
+        if (by_fronts_ && factor_->is_super) return factorize_fronts(lower);
+        by_fronts_ = true;
         cholmod_sparse view = view_of(lower);
         const int done = cholmod_factorize(&view, factor_, &common_);
         if (!done || common_.status < CHOLMOD_OK) fail("the factorisation of a sparse system failed");
@@ -253,6 +253,7 @@ class CholmodBackend final : public CholeskyBackend {
   private:
     /// Values of the factor that CHOLMOD has analysed; it solves with them as with its own.
     bool factorize_fronts(const Matrix& lower) {
+        if (!multifrontal_) multifrontal_.emplace(supernodal_view(), lower.outerIndexPtr(), lower.innerIndexPtr());
         if (factor_->xtype == CHOLMOD_PATTERN && !cholmod_change_factor(CHOLMOD_REAL, 1, 1, 1, 1, factor_, &common_))
             fail("the factorisation of a sparse system failed");
         const bool definite = multifrontal_->factorize(lower.valuePtr(), static_cast<double*>(factor_->x), dense_part);
@@ -333,7 +334,10 @@ class CholmodBackend final : public CholeskyBackend {
     enum class Rough { not_made, ready, impossible };
     Rough rough_ = Rough::not_made;  ///< state of the copy of the present factor
     std::unique_ptr<SupernodalFactor> rough_factor_;
-    std::optional<MultifrontalCholesky> multifrontal_;  ///< for two unknowns a node
+    /// With two unknowns a node, and with one from the second factorisation on, whose preparation costs as much as a
+    /// factorisation saves.
+    bool by_fronts_ = false;
+    std::optional<MultifrontalCholesky> multifrontal_;
 };
 
 }  // namespace
