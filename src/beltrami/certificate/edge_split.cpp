@@ -19,9 +19,11 @@ SplitEdges split_edges(const Surface& source, const BoundaryCondition& boundary,
     const Eigen::VectorXcd values = prescribed_values(boundary, source);
     const std::vector<EdgeConstraint> inner = edge_constraints(boundary, source);
     BoundaryCondition finer_boundary = boundary;
+    std::vector<std::array<int, 4>> ends;
     for (int e = 0; e < topology.edge_count(); ++e) {
         if (middle[e] < 0) continue;
         const auto [a, b] = topology.edges[e];
+        ends.push_back({a, b, -1, -1});
         finer.positions.row(middle[e]) = 0.5 * (mesh.positions.row(a) + mesh.positions.row(b));
         const bool rim = topology.edge_faces[e][0] < 0 || topology.edge_faces[e][1] < 0;
         if (rim || inner[e] == EdgeConstraint::pinned) finer_boundary.pin(middle[e], 0.5 * (values[a] + values[b]));
@@ -89,7 +91,7 @@ SplitEdges split_edges(const Surface& source, const BoundaryCondition& boundary,
         }
     }
     return {surface_of(std::move(finer), std::move(metric)), std::move(finer_boundary), std::move(parents),
-            std::move(places)};
+            std::move(places), std::move(ends)};
 }
 
 }  // namespace beltrami

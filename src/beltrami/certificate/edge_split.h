@@ -15,6 +15,7 @@ struct SplitEdges {
     std::vector<int> parents;  ///< #F old face of each new one
     /// #corners: places in the old face (barycentric coordinates).
     std::vector<std::array<double, 3>> places;
+    std::vector<std::array<int, 4>> ends;  ///< of the halved edges, as parents of the new vertices in SubdividedMesh
 };
 
 /// Halves edges; faces with one, two or three such edges become two, three or four. Old vertices come first, then the

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <beltrami/certificate/edge_split.h>
+#include <beltrami/mesh/subdivide.h>
 
 namespace beltrami {
 
@@ -70,20 +71,6 @@ std::vector<char> marked(const std::vector<double>& gain, double all) {
     return result;
 }
 
-/// The same piecewise linear map on a mesh some of whose edges are halved.
-Eigen::VectorXcd interpolated(const Mesh& mesh, const Eigen::VectorXcd& map, const SplitEdges& fine) {
-    const FaceList& faces = fine.surface.mesh.faces;
-    Eigen::VectorXcd result = Eigen::VectorXcd::Zero(fine.surface.mesh.vertex_count());
-    for (int f = 0; f < faces.size(); ++f)
-        for (int c = 0; c < 3; ++c) {
-            const auto& place = fine.places[3 * f + c];
-            Complex at = 0;
-            for (int i = 0; i < 3; ++i) at += place[i] * map[mesh.faces[fine.parents[f]][i]];
-            result[faces[f][c]] = at;
-        }
-    return result;
-}
-
 }  // namespace
 
 RefinedPair refined_pair_bound(const Surface& source, const BoundaryCondition& boundary, const Eigen::VectorXcd& map,
@@ -113,7 +100,7 @@ RefinedPair refined_pair_bound(const Surface& source, const BoundaryCondition& b
         const double all = std::accumulate(gain.begin(), gain.end(), 0.0);
         if (!(all > kLeastGain)) return result;
         SplitEdges fine = split_edges(surface, values, marked(gain, all));
-        at = interpolated(surface.mesh, at, fine);
+        at = with_parents_means(at, fine.ends);
         surface = std::move(fine.surface);
         values = std::move(fine.boundary);
         ++result.rounds;
