@@ -16,10 +16,10 @@ PolynomialSpace::PolynomialSpace(int degree, int largest_degree)
     }
 }
 
-int PolynomialSpace::largest_degree(int sample_count) {
+int PolynomialSpace::largest_degree(int sample_count, int most) {
     // A polynomial of degree d turns d times along the circle, which has about 3.5 √(samples) edges: keep 16 edges a
-    // turn, and never more functions than smooth boundary data can ask for.
-    return std::clamp(static_cast<int>(0.2 * std::sqrt(static_cast<double>(sample_count))), 4, 40);
+    // turn.
+    return std::clamp(static_cast<int>(0.2 * std::sqrt(static_cast<double>(sample_count))), 4, most);
 }
 
 std::unique_ptr<DifferentialSpace> PolynomialSpace::starting_space(int largest_degree) {

@@ -16,8 +16,10 @@ class PolynomialSpace final : public DifferentialSpace {
     /// @param largest_degree refined() stops there
     PolynomialSpace(int degree, int largest_degree);
 
-    /// Largest degree that a mesh of so many samples resolves.
-    static int largest_degree(int sample_count);
+    /// More than this smooth data do not ask for.
+    static constexpr int kMostDegree = 40;
+    /// Largest degree that a mesh of so many samples resolves, at most @p most.
+    static int largest_degree(int sample_count, int most = kMostDegree);
     /// A space to start from, which can grow up to a degree.
     static std::unique_ptr<DifferentialSpace> starting_space(int largest_degree);
 

@@ -39,10 +39,10 @@ class PoleChoice {
     /// The space of φ where the boundary values crowd (crowding.h); null elsewhere.
     const std::optional<TabulatedSpace>& products() const { return products_; }
 
-  private:
     /// Width of the bracket, as part of K, from which on poles are needed in any case.
     static constexpr double kPolesNeeded = 0.01;
 
+  private:
     std::ptrdiff_t image_corners() const;
     std::vector<BoundaryCorner> clear_corners() const;
     bool wants_chart_metric();

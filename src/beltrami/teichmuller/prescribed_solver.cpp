@@ -42,6 +42,8 @@ constexpr double kTightPerSample = 4;
 constexpr double kLargeCoefficient = 0.8;
 /// Of the map of which K is estimated with other boundary values.
 constexpr double kEstimateTolerance = 1e-4;
+/// The largest degree of φ where the rim is jagged: chinese_lion, divided once, resolves 68.
+constexpr int kMostDegreeInPlane = 80;
 /// Poles at held vertices follow the map so often.
 constexpr int kMostTurns = 4;
 /// Gauss-Newton steps of evening out where bends narrower than an edge are all that is uneven. (Three lobes, 10⁴ and
@@ -172,6 +174,7 @@ ExtremalMap PrescribedSolver::solve() {
 void PrescribedSolver::run() {
     using Evening = ExtremalOptions::Evening;
     evened_ = false;
+    bool settled = false;
     if ((problem_.singular() || poles_.withheld() || poles_.products()) && !problem_.jumps() &&
         options_.evening != Evening::never) {
         iterate_roughly();
@@ -180,13 +183,15 @@ void PrescribedSolver::run() {
         const int steps = converged_ ? evening_steps(early) : 0;
         evened_ = steps > 0 && even_out(early, steps);
         other_factorizations_ += early.factorizations();
+        // In the plane of a chart it has settled within the bracket.
+        settled = converged_ && problem_.chart_metric() != nullptr;
     }
-    if (!evened_) {
-        HamiltonIteration::Options rest = iteration_options(options_);
-        rest.max_iterations -= std::max(0, static_cast<int>(history_.size()) - 1);
+    if (!evened_ && !settled) {
+        const HamiltonIteration::Options rest = rest_of_iteration();
         if (rest.max_iterations > 0) iterate(rest);
         if (needs_poles()) return run_with_poles();
     }
+    if (needs_degree()) raise_degree();
     Finish last = finish();
     if (!evened_)
         evened_ = (options_.evening == Evening::always ||
@@ -204,11 +209,48 @@ void PrescribedSolver::run_with_poles() {
     run();
 }
 
-/// Evening out moves φ more than the last digits of the iteration do.
+/// With the steps that are left of it.
+HamiltonIteration::Options PrescribedSolver::rest_of_iteration() const {
+    HamiltonIteration::Options rest = iteration_options(options_);
+    rest.max_iterations = std::max(0, rest.max_iterations - std::max(0, static_cast<int>(history_.size()) - 1));
+    return rest;
+}
+
+/// Whether a jagged rim asks for more of φ than smooth data do: in the plane of a chart, where no poles stand for it.
+bool PrescribedSolver::needs_degree() const {
+    return problem_.chart_metric() && !problem_.singular() && !poles_.withheld() && converged_ &&
+           bracket(found_.step) > PoleChoice::kPolesNeeded;
+}
+
+/// From the φ found, with all degrees that mesh and rim resolve, unless they make the bound worse.
+void PrescribedSolver::raise_degree() {
+    const int smooth = problem_.largest_degree();
+    problem_.allow_degree(kMostDegreeInPlane);
+    const int degree = problem_.largest_degree();
+    const HamiltonIteration::Options rest = rest_of_iteration();
+    if (degree == smooth || rest.max_iterations == 0) return;
+    const HamiltonState in_smooth = state_;
+    FoundMap of_smooth = found_;
+    state_.space = problem_.starting_space(degree);
+    state_.direction.conservativeResizeLike(Eigen::VectorXcd::Zero(state_.space->size()));
+    state_.acceleration.reset();
+    iterate_once(rest);
+    if (found_.step.merit >= of_smooth.step.merit) return;
+    problem_.allow_degree(smooth);
+    problem_.coefficient_step().set_space(*in_smooth.space);
+    problem_.map_step().set_map(of_smooth.map);
+    state_ = in_smooth;
+    found_ = std::move(of_smooth);
+    converged_ = true;
+}
+
+/// Evening out moves φ more than the last digits of the iteration do. In the plane of a chart folds alone ask for it.
 void PrescribedSolver::iterate_roughly() {
     HamiltonIteration::Options rough = iteration_options(options_);
-    rough.tolerance = std::max(rough.tolerance, kRoughTolerance);
-    rough.k_tolerance = std::max(rough.k_tolerance, kRoughTolerance * kRoughTolerance);
+    if (!problem_.chart_metric()) {
+        rough.tolerance = std::max(rough.tolerance, kRoughTolerance);
+        rough.k_tolerance = std::max(rough.k_tolerance, kRoughTolerance * kRoughTolerance);
+    }
     rough.max_iterations = std::min(rough.max_iterations, kRoughIterations);
     rough.step_below_change = kRoughStep;
     rough.grow_last = false;

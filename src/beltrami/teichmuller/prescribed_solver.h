@@ -35,6 +35,9 @@ class PrescribedSolver final : public ProblemSolver {
     HamiltonIteration::Options adapted(HamiltonIteration::Options how) const;
     std::unique_ptr<DifferentialSpace> first_space() const;
     bool needs_poles() const;
+    HamiltonIteration::Options rest_of_iteration() const;
+    bool needs_degree() const;
+    void raise_degree();
 
     // Finish.
     Finish finish();

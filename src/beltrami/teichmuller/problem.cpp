@@ -149,7 +149,7 @@ bool ExtremalProblem::chart_is_round() const {
 }
 
 int ExtremalProblem::largest_degree() const {
-    const int of_mesh = PolynomialSpace::largest_degree(source_.operators.sample_count());
+    const int of_mesh = PolynomialSpace::largest_degree(source_.operators.sample_count(), most_degree_);
     if (!is_round(source_, chart_)) return of_mesh;
     return std::clamp(of_mesh, 1, degree_of_rim(source_, chart_));
 }

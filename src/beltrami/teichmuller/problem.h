@@ -5,6 +5,7 @@
 #include <optional>
 
 #include <beltrami/constraints/boundary_corners.h>
+#include <beltrami/differentials/polynomial_space.h>
 #include <beltrami/differentials/quadratic_differential.h>
 #include <beltrami/teichmuller/chart_metric.h>
 #include <beltrami/teichmuller/hamilton.h>
@@ -83,6 +84,8 @@ class ExtremalProblem {
     bool chart_is_round() const;
     /// The largest degree of φ that the mesh resolves, and where the chart is round its rim too.
     int largest_degree() const;
+    /// Lets φ have a degree beyond what smooth data ask for, where mesh and rim resolve it.
+    void allow_degree(int most) { most_degree_ = most; }
     /// A first space for the singularities, which can grow up to a degree. In the plane of a chart, where no noise
     /// forbids it and poles come to a map that has settled without them, it has grown at once.
     std::unique_ptr<DifferentialSpace> starting_space(int largest_degree) const;
@@ -116,6 +119,7 @@ class ExtremalProblem {
     std::optional<StepInChart> step_in_chart_;
     Singularities singularities_;
     double phase_ = 0;
+    int most_degree_ = PolynomialSpace::kMostDegree;
     std::optional<CoefficientStep> coefficient_step_;
 };
 

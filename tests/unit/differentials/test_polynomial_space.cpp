@@ -57,6 +57,8 @@ TEST(PolynomialSpace, GrowsByAddingFunctionsUpToALimit) {
     }
     EXPECT_GE(last, 30);
     EXPECT_LE(PolynomialSpace::largest_degree(100), 9);
+    EXPECT_EQ(PolynomialSpace::largest_degree(1'000'000, 80), 80);
+    EXPECT_EQ(PolynomialSpace::largest_degree(100, 80), PolynomialSpace::largest_degree(100));
 }
 
 }  // namespace

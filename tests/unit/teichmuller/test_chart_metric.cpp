@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -222,6 +223,28 @@ TEST(ChartMetric, AnOutlineOfTeethGetsNoFunctionsForEach) {
     EXPECT_GT(map.corners.size(), 24u);
     EXPECT_LE(map.history.back().functions, map.in_chart->degree + 1);
     EXPECT_LT(map.K, 1.1 * map.K_lower);
+}
+
+/// Smooth data have degree 40 at most; what a rim that is jagged edge by edge asks for beyond that is there.
+TEST(ChartMetric, AJaggedRimIsGivenADegreeThatSmoothDataDoNotAskFor) {
+    Mesh mesh = test::bump(60'000, 0.5);
+    const std::vector<int> rim = topology(mesh).boundary_loops[0];
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> noise(-0.06, 0.06);
+    for (const int v : rim) mesh.positions.row(v) *= 1 + noise(random);
+    const Surface source(std::move(mesh));
+    ExtremalOptions options;
+    options.chart_metric = true;
+    const ExtremalMap map = extremal_map(source, boundary_to_disk(source, 0.5), options);
+    EXPECT_TRUE(map.distortion.flipped.empty());
+    ASSERT_TRUE(map.in_chart);
+    EXPECT_GT(map.in_chart->degree, 40);
+    EXPECT_EQ(map.history.back().functions, map.in_chart->degree + 1);
+    // The last φ of the smooth degree is where it begins.
+    const auto before = std::find_if(map.history.rbegin(), map.history.rend(),
+                                     [](const Iteration& iteration) { return iteration.functions == 41; });
+    ASSERT_NE(before, map.history.rend());
+    EXPECT_GT(map.history.back().k, before->k);
 }
 
 }  // namespace
