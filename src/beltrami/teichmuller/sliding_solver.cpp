@@ -6,6 +6,7 @@
 
 #include <beltrami/base/error.h>
 #include <beltrami/charts/fold_free_disk.h>
+#include <beltrami/charts/round_disk.h>
 #include <beltrami/starts/sliding_loops.h>
 #include <beltrami/teichmuller/hamilton_options.h>
 #include <beltrami/teichmuller/record.h>
@@ -41,6 +42,22 @@ std::vector<Freedom> fixed_or_free(std::vector<Freedom> freedoms) {
     for (Freedom& freedom : freedoms)
         if (freedom != Freedom::free) freedom = Freedom::fixed;
     return freedoms;
+}
+
+/// Puts the places of a loop's vertices on its curve where a map has them; whether these ascend.
+bool go_round(const std::vector<int>& vertices, const Eigen::VectorXcd& map, SlidingLoop& loop) {
+    const double length = loop.curve.length();
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        const double at = loop.curve.nearest(map[vertices[i]]);
+        if (i == 0) {
+            loop.parameters[0] = at;
+            continue;
+        }
+        const double step = std::remainder(at - loop.parameters[i - 1], length);
+        if (!(step > 0)) return false;
+        loop.parameters[i] = loop.parameters[i - 1] + step;
+    }
+    return loop.parameters.back() < loop.parameters[0] + length;
 }
 
 /// Whether an arc of a loop is prescribed, not only single vertices.
@@ -300,29 +317,56 @@ void SlidingSolver::solve_conformal(ExtremalMap& result) {
 
 /// Opens folds of the map, or of its start, which where the boundary is crowded has fewer: the steps' remainder is
 /// larger than the faces there. Where they do not open so, and the whole boundary slides on a circle, its vertices are
-/// spread as far as faces between them need (fold_free_disk.h).
+/// spread as far as faces between them need (fold_free_disk.h). There the round chart of the surface is a conformal map
+/// of the same boundary, and is taken where the folds have cost more than its own.
 void SlidingSolver::open_conformal_folds(ExtremalMap& result) {
     const std::vector<Freedom> freedoms = fixed_or_free(boundary_->freedoms());
-    const auto take = [&](Eigen::VectorXcd map) {
+    const auto take = [&](Eigen::VectorXcd map, Distortion of_map) {
         result.map = std::move(map);
-        result.distortion = distortion(source().operators, result.map);
+        result.distortion = std::move(of_map);
         result.folds_removed = true;
-        boundary_->adopt(result.map);
     };
     for (const Eigen::VectorXcd& map : {result.map, begun_.start}) {
         LocalUnfolding opened = unfold_locally(source(), freedoms, map);
         result.factorizations += opened.factorizations;
-        if (opened.fold_free) return take(std::move(opened.map));
+        if (!opened.fold_free) continue;
+        Distortion of_map = distortion(source().operators, opened.map);
+        take(std::move(opened.map), std::move(of_map));
+        boundary_->adopt(result.map);
+        break;
     }
-    const bool slides_freely = source().topology.boundary_loops.size() == 1 && boundary_->loops().size() == 1 &&
-                               problem_->prescribed().vertices.empty() && problem_->marked().vertices.empty();
-    if (!slides_freely || boundary_->loops()[0].curve.kind() != TargetCurve::Kind::circle) return;
-    const TargetCurve& circle = boundary_->loops()[0].curve;
-    const Eigen::VectorXcd in_disk = (result.map.array() - circle.centre()) / circle.radius();
-    FoldFreeDisk opened = fold_free_disk(source(), in_disk);
-    result.factorizations += opened.factorizations;
-    if (!opened.fold_free) return;
-    take(opened.map.array() * circle.radius() + circle.centre());
+    if (const auto circle = free_circle()) {
+        // Vertices that are held only fix which of the conformal maps it is, and move here.
+        const auto open_disk = [&](const Eigen::VectorXcd& in_disk) {
+            FoldFreeDisk opened = fold_free_disk(source(), in_disk);
+            result.factorizations += opened.factorizations;
+            if (!opened.fold_free) return;
+            Eigen::VectorXcd map = opened.map.array() * circle->radius() + circle->centre();
+            Distortion of_map = distortion(source().operators, map);
+            if (result.folds_removed && of_map.mean >= result.distortion.mean) return;
+            SlidingLoop loop = boundary_->loops()[0];
+            if (!go_round(source().topology.boundary_loops[loop.loop], map, loop)) return;
+            boundary_.emplace(source(), std::vector<SlidingLoop>{std::move(loop)}, problem_->prescribed());
+            take(std::move(map), std::move(of_map));
+        };
+        const Eigen::VectorXcd in_disk = (result.map.array() - circle->centre()) / circle->radius();
+        if (!result.folds_removed) open_disk(in_disk);
+        Chart chart = round_disk_chart(source());
+        result.factorizations += chart.factorizations;
+        // Turned as the map is: the chart and it are the same up to that where neither has folds.
+        const Complex turn = chart.vertices.dot(in_disk);
+        if (std::abs(turn) > 0) chart.vertices *= turn / std::abs(turn);
+        open_disk(chart.vertices);
+    }
+}
+
+/// The circle on which the whole boundary slides, if it does.
+std::optional<TargetCurve> SlidingSolver::free_circle() const {
+    if (source().topology.boundary_loops.size() != 1 || boundary_->loops().size() != 1 ||
+        !problem_->prescribed().vertices.empty() || !problem_->marked().vertices.empty() ||
+        boundary_->loops()[0].curve.kind() != TargetCurve::Kind::circle)
+        return std::nullopt;
+    return boundary_->loops()[0].curve;
 }
 
 /// How far the map obeys its conditions.

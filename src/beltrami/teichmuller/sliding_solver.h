@@ -35,6 +35,7 @@ class SlidingSolver final : public ProblemSolver {
     bool settle_conformal(int max_steps, int& steps);
     void solve_conformal(ExtremalMap& result);
     void open_conformal_folds(ExtremalMap& result);
+    std::optional<TargetCurve> free_circle() const;
     void record_conditions(ExtremalMap& result) const;
 
     ExtremalOptions options_;
