@@ -3,7 +3,7 @@
 //
 //     bench_distance FOLDER [COUNT]        default: 20 variants of each scan
 //
-// The scans are peaks_7.obj, which has holes, and hippocampus.obj, cut by a plane, with two holes.
+// The scans are peaks_7.obj and alex_3.obj, which have holes, and human_face.obj with two holes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,8 +23,6 @@
 #include <beltrami/beltrami.h>
 #include <beltrami/charts/shape.h>
 #include <beltrami/mesh/submesh.h>
-
-#include "openings.h"
 
 namespace {
 
@@ -152,6 +150,6 @@ int main(int argc, char** argv) {
         }
     };
     row("peaks_7", [&] { return read_mesh(folder / "peaks_7.obj").mesh; });
-    row("hippocampus, plane",
-        [&] { return with_holes(bench::opened_by_plane(read_mesh(folder / "hippocampus.obj").mesh)); });
+    row("alex_3", [&] { return read_mesh(folder / "alex_3.obj").mesh; });
+    row("human_face, two holes", [&] { return with_holes(read_mesh(folder / "human_face.obj").mesh); });
 }
