@@ -290,7 +290,9 @@ FollowedMap follow(const Surface& source, const Continuation& continuation, doub
                 throw Error(Cause::not_solved,
                             "the map folds at step " + std::to_string(next * continuation.pieces()) + " of " +
                                 std::to_string(continuation.pieces()) + " and the folds do not open",
-                            "refine the mesh around the holes, or give waypoints that keep them apart");
+                            source.topology.boundary_loops.size() > 1
+                                ? "refine the mesh around the holes, or give waypoints that keep them apart"
+                                : "refine the mesh where it is crowded: at thin limbs and notches of the outline");
             map = std::move(opened.map);
             ++result.repaired_steps;
         }
