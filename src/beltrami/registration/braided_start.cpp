@@ -39,7 +39,7 @@ Eigen::VectorXcd unpinned(const Surface& source, const Constraints& constraints)
         fold_free_map(source, dirichlet_freedoms(source), Eigen::VectorXcd::Zero(source.operators.sample_count()), map);
     if (!opened.fold_free)
         throw Error(Cause::not_solved, "the map from which landmarks set out folds, and cannot be unfolded",
-                    "refine the mesh of the source, or give --start-map");
+                    "refine the mesh of the source, or give a start map");
     return opened.map;
 }
 

@@ -165,7 +165,7 @@ NaturalStart natural_start(const Surface& source, const Target& target, const Ta
     throw Error(Cause::bad_option,
                 "the flow needs a start: the source does not lie on the target, and has not its topology where one is "
                 "known",
-                "give one (--start-map): a mesh of the source's faces whose vertices stand near their images");
+                "give a start map: a mesh of the source's faces whose vertices stand near their images");
 }
 
 }  // namespace beltrami
