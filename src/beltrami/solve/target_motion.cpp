@@ -51,7 +51,7 @@ TargetMotion::Directions TargetMotion::directions(int vertex, const TargetMap& m
     if (unknowns_[vertex] == 0) return {none, none};
     if (const int i = slide_[vertex]; i >= 0)
         return {constraints_.curves[constraints_.sliding[i].curve]->tangent(map.parameters[i]), none};
-    const TangentFrame frame(map.points[vertex].normal);
+    const TangentFrame frame(target_.across(map.points[vertex]));
     return {frame.first, frame.second};
 }
 

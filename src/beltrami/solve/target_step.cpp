@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Geometry>
+
 #include <beltrami/base/error.h>
 #include <beltrami/base/parallel.h>
 #include <beltrami/solve/damping.h>
@@ -22,6 +24,9 @@ constexpr double kStiffening = 100, kSlackening = 4;  // of samples, at most in 
 constexpr double kStiff = 1.5;                        // by which stiffness a step counts as damped
 constexpr double kBlocked = 0.05;                 // step length below which vertices of faces that would flip are held
 constexpr double kFirstHold = 1, kTighter = 100;  // how much, and where they would again
+constexpr double kAtRest = 100, kRest = 1e3;  // hold from which vertices do not move at all, and of those put to rest
+constexpr double kCutThrough = 0.2;           // step length below which vertices are put to rest, and …
+constexpr int kMostRests = 6;                 // … how often in one step
 constexpr int kMostCorners = 4;
 
 ElementSystem system_of(const Operators& operators, const std::vector<int>& place) {
@@ -117,6 +122,8 @@ std::optional<Positions> TargetStep::direction(const TargetEnergy& energy, const
         }
     }
     Positions motion = motion_along(place_, ways, solution);
+    for (Eigen::Index v = 0; v < motion.rows(); ++v)
+        if (hold_[v] >= kAtRest) motion.row(v).setZero();
     if (!energy.descends() || !motion_.unheld()) return motion;
     return motion_.target().without_drift(positions_of(map.points), std::move(motion), vertex_areas(operators_));
 }
@@ -124,14 +131,16 @@ std::optional<Positions> TargetStep::direction(const TargetEnergy& energy, const
 TargetStep::Taken TargetStep::step(TargetEnergy& energy, TargetMap& map, double largest) {
     energy.prepare(operators_, positions_of(map.points), normals_of(map.points));
     const Height before = height(energy, map);
-    const std::optional<Positions> motion = direction(energy, map);
+    std::optional<Positions> motion = direction(energy, map);
     Taken taken;
     taken.energy = before.energy;
     taken.wanted = std::numeric_limits<double>::infinity();
     if (!motion) return taken;
     const double longest = motion->rowwise().norm().maxCoeff();
     taken.wanted = longest;
-    double length = std::min(1.0, largest / longest);
+    const double whole = std::min(1.0, largest / longest);
+    double length = whole;
+    int rests = 0;
     TargetMap trial, rejected;
     while (length > kShortest) {
         trial = motion_.moved(map, *motion, length);
@@ -140,14 +149,19 @@ TargetStep::Taken TargetStep::step(TargetEnergy& energy, TargetMap& map, double 
         if (!lower || after.flips > before.flips) {
             if (after.flips > before.flips) std::swap(rejected, trial);
             length *= 0.5;
+            if (length < kCutThrough && after.flips > before.flips && rests < kMostRests &&
+                put_to_rest(energy, map, rejected, *motion)) {
+                ++rests;
+                length = whole;
+            }
             continue;
         }
         std::swap(map, trial);
         taken.length = length;
-        taken.movement = length * longest;
+        taken.movement = length * motion->rowwise().norm().maxCoeff();
         taken.energy = after.energy;
         taken.fallen = before.energy > 0 ? 1 - after.energy / before.energy : 0;
-        taken.damped = damping_ > kNoticeable || stiffness_.maxCoeff() > kStiff || hold_.maxCoeff() > kNoticeable;
+        taken.damped = damping_ > kNoticeable || stiffness_.maxCoeff() > kStiff || drags();
         break;
     }
     if (!energy.descends()) return taken;
@@ -195,6 +209,38 @@ void TargetStep::hold_flipped(const TargetMap& from, const TargetMap& rejected) 
     }
     for (std::size_t v = 0; v < blocks.size(); ++v)
         if (double& hold = hold_[static_cast<Eigen::Index>(v)]; blocks[v]) hold = std::max(kTighter * hold, kFirstHold);
+}
+
+/// Of faces that cut through the target and would be on its other side: not they turn over, but the normals of their
+/// corners, and their distortion foretells nothing. Those of their vertices that move are kept where they are.
+bool TargetStep::put_to_rest(const TargetEnergy& energy, const TargetMap& from, const TargetMap& rejected,
+                             Positions& motion) {
+    if (!std::isfinite(energy.reach())) return false;
+    const Positions points = positions_of(from.points), normals = normals_of(from.points),
+                    moved = positions_of(rejected.points), moved_normals = normals_of(rejected.points);
+    std::vector<char> resting(static_cast<std::size_t>(hold_.size()), 0);
+    for (int s = 0; s < operators_.sample_count(); ++s) {
+        const ImageFrame after = image_frame(operators_, s, moved, moved_normals);
+        if (after.upright) continue;
+        const ImageFrame before = image_frame(operators_, s, points, normals);
+        const bool turned_over = before.e1.cross(before.e2).dot(after.e1.cross(after.e2)) > 0;  // seen from outside
+        if (!before.upright || turned_over) continue;
+        for (const int v : operators_.stencil(s)) resting[v] = motion.row(v).isZero(0) ? 0 : 1;
+    }
+    bool any = false;
+    for (std::size_t v = 0; v < resting.size(); ++v) {
+        if (!resting[v]) continue;
+        any = true;
+        double& hold = hold_[static_cast<Eigen::Index>(v)];
+        hold = std::max(kTighter * hold, kRest);
+        motion.row(static_cast<Eigen::Index>(v)).setZero();
+    }
+    return any;
+}
+
+/// Whether vertices are held that do move. Those at rest stand where the next step would flip a face.
+bool TargetStep::drags() const {
+    return (hold_.array() > kNoticeable && hold_.array() < kAtRest).any();
 }
 
 void TargetStep::damp(double length) {

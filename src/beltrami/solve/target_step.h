@@ -13,8 +13,9 @@ namespace beltrami {
 /// smallest face, so that limbs of any size count alike. A step is halved until it lowers the energy and flips no more
 /// samples. After one that had to be cut short the samples that would have changed by more than the energy's model
 /// reaches are made stiffer, each as far as it went too far, and the vertices of others that it would have flipped are
-/// held, both for some steps: a needle that is about to flip then holds up itself and not the others. Where the energy
-/// tells no reach, the step is damped as Levenberg and Marquardt do.
+/// held, both for some steps: a needle that is about to flip then holds up itself and not the others. Vertices of faces
+/// that cut through the target and would come to its other side stay where they are, for some steps too. Where the
+/// energy tells no reach, the step is damped as Levenberg and Marquardt do.
 class TargetStep {
   public:
     /// @param operators of the source; kept by reference as motion is
@@ -42,6 +43,8 @@ class TargetStep {
     Height height(const TargetEnergy& energy, const TargetMap& map) const;
     std::optional<Positions> direction(const TargetEnergy& energy, const TargetMap& map);
     void assemble(const TargetEnergy& energy, const TargetMap& map, const std::vector<TargetMotion::Directions>& ways);
+    bool put_to_rest(const TargetEnergy& energy, const TargetMap& from, const TargetMap& rejected, Positions& motion);
+    bool drags() const;
     void damp(double length);
     void stiffen(const TargetEnergy& energy, const TargetMap& from, const Positions& motion);
     void hold_flipped(const TargetMap& from, const TargetMap& rejected);

@@ -12,6 +12,8 @@ namespace beltrami {
 
 namespace {
 
+constexpr double kOnEdge = 1e-9;  // barycentric weight up to which a point counts as on an edge
+
 Positions in_space(const Mesh& mesh) {
     if (mesh.face_count() == 0) throw Error(Cause::bad_mesh, "the target mesh has no faces");
     Positions points(mesh.vertex_count(), 3);
@@ -60,6 +62,16 @@ Target::Point MeshTarget::at_vertex(int vertex) const {
 Target::Point MeshTarget::nearest(const Eigen::Vector3d& point) const {
     const SurfaceLocator::Place found = locator_.nearest(point);
     return at({face_of_triangle_[found.triangle], triangles_[found.triangle], found.barycentric});
+}
+
+Eigen::Vector3d MeshTarget::across(const Point& point) const {
+    const MeshPoint& place = point.place;
+    for (const double weight : place.barycentric)
+        if (!(weight > kOnEdge)) return point.normal;
+    const std::array<Eigen::Vector3d, 3> corners{mesh_.point(place.vertices[0]), mesh_.point(place.vertices[1]),
+                                                 mesh_.point(place.vertices[2])};
+    const Eigen::Vector3d up = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    return up.dot(point.normal) > 0 ? Eigen::Vector3d(up.normalized()) : point.normal;
 }
 
 SlideCurves MeshTarget::boundary() const {

@@ -18,6 +18,7 @@ class MeshTarget final : public Target {
 
     /// Of several nearest places that in the triangle that comes first.
     Point nearest(const Eigen::Vector3d& point) const override;
+    Eigen::Vector3d across(const Point& point) const override;
     /// Its boundary loops as polylines.
     SlideCurves boundary() const override;
     const Mesh* mesh() const override { return &mesh_; }

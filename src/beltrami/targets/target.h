@@ -36,6 +36,10 @@ class Target {
     /// @param moved finite
     virtual Point retract(const Eigen::Vector3d& moved, const Point& /*from*/) const { return nearest(moved); }
 
+    /// What motions of a point are across, so that it moves as they say to first order: its normal, but inside a face
+    /// of a mesh that of the face.
+    virtual Eigen::Vector3d across(const Point& point) const { return point.normal; }
+
     /// Where conformal maps of the surface onto itself leave maps to it undetermined that hold no vertex: the
     /// representative with its centre of mass in the middle. Elsewhere the points as they are.
     /// @param weights #V of the points

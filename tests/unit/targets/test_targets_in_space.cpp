@@ -47,6 +47,18 @@ TEST(MeshTarget, GivesThePlaceOfEveryPointAndItsNormal) {
     }
 }
 
+TEST(MeshTarget, MovesPointsAsTheirMotionSays) {
+    const Mesh mesh = torus(2, 1, 12, 6);  // whose faces lie far from the planes across its normals
+    const MeshTarget target(mesh);
+    const Target::Point point = target.nearest({2.9, 0.35, 0.4});
+    const Eigen::Vector3d across = target.across(point), other = Eigen::Vector3d(0.3, 0.2, 0.9).cross(across),
+                          along = 1e-3 * other.normalized();
+    EXPECT_GT(across.dot(point.normal), 0.5);
+    EXPECT_LT((target.retract(point.position + along, point).position - point.position - along).norm(), 1e-12);
+    // On edges, where there is no such plane, across the normal.
+    EXPECT_EQ(target.across(target.at_vertex(5)), target.at_vertex(5).normal);
+}
+
 TEST(MeshTarget, KeepsItsOwnVertices) {
     const Mesh mesh = icosahedral_sphere(3);
     const MeshTarget target(mesh);
