@@ -87,7 +87,7 @@ NaturalStart start_of(const AlongTarget::Request& request, const Target& target,
                              curves);
     }
     const std::string& path = request.start_map.path();
-    return {load_of_same_faces("--start-map", path, request.source.mesh, warnings).positions, path};
+    return {load_of_same_faces("--start-map", path, request.source.mesh, warnings).positions, path, {}};
 }
 
 std::vector<CurveOnto> curves_of(const AlongTarget::Request& request, const Target& target, Warnings& warnings) {
@@ -301,9 +301,10 @@ SurfaceFlowMap AlongTarget::flow(const Request& request, const Target& target, c
 }
 
 SurfaceFlowMap AlongTarget::flow_with_curves(const Request& request, const Target& target,
-                                             const std::vector<CurveOnto>& curves, const Positions& start,
+                                             const std::vector<CurveOnto>& curves, NaturalStart start,
                                              SurfaceFlowRecord& record, Warnings& warnings) const {
-    HeldCurves held = held_curves(request.source.mesh, target, curves, start);
+    HeldCurves held = start.source ? held_curves(std::move(*start.source), target, curves, start.positions)
+                                   : held_curves(request.source.mesh, target, curves, start.positions);
     if (request.onto.domain()) require_inside(*request.onto.domain(), held);
     const Surface source(held.source.mesh);
     pin(request, held.wanted, held.constraints);
@@ -339,7 +340,7 @@ SurfaceFlowMap AlongTarget::run(const Request& request, SurfaceFlowRecord& recor
     NaturalStart start = start_of(request, *target, curves, warnings);
     record.start = start.name;
     SurfaceFlowMap result = [&] {
-        if (!curves.empty()) return flow_with_curves(request, *target, curves, start.positions, record, warnings);
+        if (!curves.empty()) return flow_with_curves(request, *target, curves, std::move(start), record, warnings);
         TargetConstraints constraints;
         pin(request, start.positions, constraints);
         hold_boundary(request.source, request.boundary, *target, start.positions, constraints);

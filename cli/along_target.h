@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <beltrami/flow/surface_flow.h>
+#include <beltrami/registration/natural_start.h>
 #include <beltrami/report/record.h>
 #include <beltrami/teichmuller/extremal_sphere.h>
 
@@ -80,7 +81,7 @@ class AlongTarget {
                         const TargetConstraints& constraints, TargetMap start, SurfaceFlowRecord& record) const;
     /// Along faces that are divided along the curves; of the map the source's own vertices.
     SurfaceFlowMap flow_with_curves(const Request& request, const Target& target, const std::vector<CurveOnto>& curves,
-                                    const Positions& start, SurfaceFlowRecord& record, Warnings& warnings) const;
+                                    NaturalStart start, SurfaceFlowRecord& record, Warnings& warnings) const;
     NormOption norm_;
     std::string scheme_ = "automatic";
 };

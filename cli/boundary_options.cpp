@@ -17,12 +17,13 @@ constexpr std::string_view kPolygon = "polygon:";
 
 }  // namespace
 
-void BoundaryOptions::add_to(CLI::App& app) {
+void BoundaryOptions::add_to(CLI::App& app, const std::string& also, const std::string& pins) {
     app.add_option(
            "--boundary", spec_,
            "where the outer boundary loop goes, counter-clockwise: disk or disk:A (angle t + A sin t, t = 2π · arc "
            "length / total), "
-           "rectangle:W,H, polygon:FILE (a line `x y` per point)")
+           "rectangle:W,H, polygon:FILE (a line `x y` per point)" +
+               also)
         ->type_name("SPEC");
     app.add_option(
            "--corners", corners_,
@@ -50,7 +51,8 @@ void BoundaryOptions::add_to(CLI::App& app) {
         ->type_name("h=disk:x,y,r[,t]");
     app.add_option("--pin", pin_file_,
                    "prescribed vertices: a line `vertex x y` each, vertices counted from 0 in file order, # comments; "
-                   "* for a coordinate that is free (vertices inside only)")
+                   "* for a coordinate that is free (vertices inside only)" +
+                       pins)
         ->type_name("FILE");
 }
 

@@ -16,7 +16,8 @@ namespace beltrami::cli {
 /// --boundary, --corners, --first-vertex, --speed, --outer, --hole, --pin: what the user prescribes about the boundary.
 class BoundaryOptions {
   public:
-    void add_to(CLI::App& app);
+    /// @param also what --boundary may say beside curves, and @p pins what lines of --pin may be beside them
+    void add_to(CLI::App& app, const std::string& also = {}, const std::string& pins = {});
     /// The files the options name.
     std::vector<NamedFile> inputs() const;
     /// Reads the options and their files; vertices are then numbered as in the mesh. @throw Error bad_option,

@@ -47,14 +47,18 @@ class Flow final : public Command {
         coefficient_.add_to(*app, "the Beltrami coefficient of the map");
         along_.add_to(*app);
         curves_.add_to(*app);
-        boundary_.add_to(*app);
+        boundary_.add_to(*app,
+                         "; or, along a surface in space, how the boundary moves: fixed, where the start has it; "
+                         "tangential, along that of TARGET (the default where TARGET has one); or free on TARGET",
+                         "; along a surface in space `vertex x y z`, held there");
         onto_.add_to(*app);
         homotopy_.add_to(*app);
-        start_map_.add_to(*app);
+        start_map_.add_to(*app, "; along a surface in space its vertices stand near their images");
         metric_.add_to(*app);
         app->add_option("--tolerance", options_.tolerance,
                         "with --onto: stop when a step moves no boundary vertex by more, as part of its curve, and "
-                        "changes the map by less, as part of its size")
+                        "changes the map by less, as part of its size; along a surface in space: no vertex by more, as "
+                        "part of the image's size")
             ->check(CLI::PositiveNumber)
             ->capture_default_str()
             ->type_name("T");
@@ -64,7 +68,7 @@ class Flow final : public Command {
             ->type_name("N");
         app->add_option("--step", options_.step,
                         "with --onto: the epsilon of the flow, above 0 and at most 1: every step asks for so much of "
-                        "the coefficient and for that of the map at hand for the rest")
+                        "the coefficient and for that of the map at hand for the rest; not along a surface in space")
             ->capture_default_str()
             ->type_name("E");
         mesh_options_.add_to(*app);
@@ -183,6 +187,9 @@ class Flow final : public Command {
                             " says where the boundary goes, but along "
                             "a surface in space it is only to be said how it moves",
                         "give --boundary fixed, tangential or free, and --pin");
+        if (options_.step != 1)
+            throw Error(Cause::bad_option, "--step belongs to the flow whose boundary slides along curves of the plane",
+                        "leave it out; steps along a surface find their own lengths");
         const std::string stray = onto_.stray();
         if (homotopy_.given() || (!stray.empty() && stray != "--places"))
             throw Error(

@@ -12,6 +12,7 @@
 
 #include "command.h"
 #include "parse.h"
+#include "space_target.h"
 
 namespace beltrami::cli {
 
@@ -24,7 +25,11 @@ void OntoTarget::add_to(CLI::App& app, Kinds kinds) {
                           "{\"circle\": [x,y,r]}, {\"polygon\": [[x,y],...]}, {\"spline\": [[x,y],...]}";
     app.add_option("--onto", path_,
                    "the boundary slides: every boundary loop of " + source + " goes onto its partner of TARGET, " +
-                       (meshes ? "a mesh with as many boundary loops, or " : "") + domain)
+                       (meshes ? "a mesh with as many boundary loops, or " : "") + domain +
+                       (kinds == Kinds::meshes_and_domains
+                            ? std::string("; or the map goes along a surface in space: ") + kNamedSurfaces +
+                                  ", or any mesh that is closed or has --boundary, --curves or --minimize-lp beside it"
+                            : ""))
         ->type_name("TARGET");
     app.add_option("--loops", pair_specs_,
                    "pairs of boundary loops, " + source +

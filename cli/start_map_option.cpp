@@ -8,11 +8,12 @@
 
 namespace beltrami::cli {
 
-void StartMapOption::add_to(CLI::App& app) {
+void StartMapOption::add_to(CLI::App& app, const std::string& also) {
     app.add_option(
            "--start-map", path_,
            "begin with the map that this mesh has as its vt, folded or not: SOURCE's vertices and faces in their "
-           "order, as OUT has them; one whose end is folded is given up, with a warning")
+           "order, as OUT has them; one whose end is folded is given up, with a warning" +
+               also)
         ->type_name("FILE");
 }
 

@@ -18,7 +18,8 @@ Mesh load_of_same_faces(const std::string& option, const std::string& path, cons
 /// --start-map: a map of SOURCE from which the iteration begins, as the vt of a mesh of the same faces.
 class StartMapOption {
   public:
-    void add_to(CLI::App& app);
+    /// @param also more of what FILE may be
+    void add_to(CLI::App& app, const std::string& also = {});
     bool given() const { return !path_.empty(); }
     std::vector<NamedFile> inputs() const { return {{"--start-map", path_}}; }
     const std::string& path() const { return path_; }

@@ -84,8 +84,9 @@ void onto_sphere(Output& output, Figure& figure, Table& table, const std::string
                  const std::vector<CurveOnto>& curves, double azimuth, double elevation) {
     const SphereTarget sphere;
     const double begun = seconds_now();
-    const NaturalStart begin = natural_start(source, sphere, {}, curves);
-    HeldCurves held = held_curves(source.mesh, sphere, curves, begin.positions);
+    NaturalStart begin = natural_start(source, sphere, {}, curves);
+    HeldCurves held = begin.source ? held_curves(std::move(*begin.source), sphere, curves, begin.positions)
+                                   : held_curves(source.mesh, sphere, curves, begin.positions);
     const Surface divided(held.source.mesh);
     LedMap led = led_map(divided, sphere, held.constraints, {nearest_points(sphere, held.start), {}},
                          target_map(divided, sphere, held.constraints, held.wanted));

@@ -7,7 +7,7 @@ import unittest
 
 import numpy as np
 
-from support import Command, bump, disk, read_obj, ring, write_obj
+from support import MESHES, Command, bump, disk, read_obj, ring, write_obj
 
 
 def coefficients(points, image, faces):
@@ -378,6 +378,7 @@ class AlongSurface(Command):
         refused(2, *sphere, "--minimize-lp", "2", "--weight", "phi", says="genus 1")
         refused(2, *sphere, "--minimize-lp", "2", "--boundary", "disk", says="fixed, tangential or free")
         refused(2, *sphere, "--minimize-lp", "2", "--loops", "0:0", says="--loops")
+        refused(2, *sphere, "--minimize-lp", "2", "--step", "0.5", says="--step")
         refused(2, "--onto", "torus:1", "--minimize-lp", "2", says="torus:R,r")
         refused(2, "--onto", "torus:1,2", "--minimize-lp", "2", says="R > r > 0")
         refused(2, "--onto", "torus:2,1", "--minimize-lp", "2", says="--start-map")
@@ -468,6 +469,19 @@ class WithCurves(Command):
         self.assertEqual(record["map"]["flipped"], 0)
         self.assertLess(record["surface_flow"]["error"]["l2"], 0.05)
         np.testing.assert_allclose(read_obj(self.out)[0][axis], images[axis], atol=1e-9)
+
+    @unittest.skipUnless((MESHES / "hippocampus.obj").exists(), "no scans in BELTRAMI_TEST_MESHES")
+    def test_a_scan_onto_another_one_along_curves(self):
+        # Faces of the hand whose corners come to lie around the hippocampus cut through it.
+        pairs = [("slide", [a, b], [c, d])
+                 for a, b, c, d in ((315, 5862, 742, 691), (2755, 5206, 3696, 3896), (6691, 6400, 3990, 243))]
+        for count, most in ((2, 0.08), (3, 0.11)):
+            record = self.flow(MESHES / "hand_closed.obj", "--onto", MESHES / "hippocampus.obj", "--minimize-lp", "2", "--curves",
+                               self.curves(*pairs[:count]))
+            self.assertEqual(record["map"]["flipped"], 0)
+            self.assertEqual(record["solve"]["termination"], "converged")
+            self.assertLess(record["map"]["mu"]["mean"], most)
+            self.assertEqual(record["warnings"], [])
 
     def test_open_surfaces_need_no_start(self):
         points, faces = bump(8)

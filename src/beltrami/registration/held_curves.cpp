@@ -134,13 +134,15 @@ Positions in_space(const Positions& points) {
     return result;
 }
 
-/// A map of a surface's vertices as one of all vertices of it with curves, unless it is that already.
-/// @throw Error bad_option where it is neither
-Positions divided(const Positions& start, const Mesh& source, const MeshWithCurves& with_curves) {
-    if (start.rows() == with_curves.mesh.vertex_count()) return start;
+/// @throw Error bad_option
+void require_start(const Positions& start, const Mesh& source) {
     if (start.rows() != source.vertex_count())
         throw Error(Cause::bad_option, "the start has " + std::to_string(start.rows()) + " points, the source " +
                                            std::to_string(source.vertex_count()) + " vertices");
+}
+
+/// A map of a surface's vertices as one of all vertices of it with curves.
+Positions divided(const Positions& start, const MeshWithCurves& with_curves) {
     Positions result(start.rows() + static_cast<Eigen::Index>(with_curves.places.size()), 3);
     result.topRows(start.rows()) = start;
     for (std::size_t i = 0; i < with_curves.places.size(); ++i) {
@@ -234,21 +236,29 @@ void hold_curves(const MeshWithCurves& source, const PartnerCurves& partners, st
 
 HeldCurves held_curves(const Mesh& source, const Target& target, std::span<const CurveOnto> curves,
                        const Positions& start) {
-    const PartnerCurves partners = partner_curves(target, curves);
-    HeldCurves result;
+    require_start(start, source);
     std::vector<CurveThrough> here;
+    for (const CurveOnto& curve : curves) here.push_back(curve.source);
+    MeshWithCurves with_curves = [&] {
+        try {
+            return mesh_with_curves(source, here);
+        } catch (const Error& error) {
+            throw Error(error.cause(), std::string("the source: ") + error.what(), {}, error.where());
+        }
+    }();
+    const Positions all = divided(in_space(start), with_curves);
+    return held_curves(std::move(with_curves), target, curves, all);
+}
+
+HeldCurves held_curves(MeshWithCurves source, const Target& target, std::span<const CurveOnto> curves,
+                       const Positions& start) {
+    require_start(start, source.mesh);
+    const PartnerCurves partners = partner_curves(target, curves);
     std::vector<char> slides;
-    for (const CurveOnto& curve : curves) {
-        here.push_back(curve.source);
-        slides.push_back(curve.slides);
-    }
-    try {
-        result.source = mesh_with_curves(source, here);
-    } catch (const Error& error) {
-        throw Error(error.cause(), std::string("the source: ") + error.what(), {}, error.where());
-    }
-    result.start = divided(in_space(start), source, result.source);
-    result.wanted = result.start;
+    for (const CurveOnto& curve : curves) slides.push_back(curve.slides);
+    HeldCurves result;
+    result.source = std::move(source);
+    result.wanted = result.start = in_space(start);
     hold_curves(result.source, partners, slides, target, result.constraints, result.wanted);
     return result;
 }

@@ -49,9 +49,12 @@ struct HeldCurves {
 /// to wanted is that of led_map().
 /// @param source that passes the diagnosis, in space or in the plane
 /// @param target kept by reference
-/// @param start  #V×3 or #V×2 of the source, near the target, or of it divided along the curves
+/// @param start  #V×3 or #V×2 of the source, near the target
 /// @throw Error bad_boundary as mesh_with_curves and partner_curves; bad_option (sizes)
 HeldCurves held_curves(const Mesh& source, const Target& target, std::span<const CurveOnto> curves,
+                       const Positions& start);
+/// The same of a source that is divided already, and a map of all its vertices.
+HeldCurves held_curves(MeshWithCurves source, const Target& target, std::span<const CurveOnto> curves,
                        const Positions& start);
 
 /// Coefficients of a surface for its faces divided along curves: every face that was divided passes on its own.

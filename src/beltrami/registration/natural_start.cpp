@@ -73,15 +73,11 @@ std::vector<CurvePair> pairs_on(const Mesh& mesh, std::span<const CurveOnto> cur
 
 /// The map of least L² norm that takes curves to curves, by way of the target's sphere or circle domain, of the source
 /// divided along them; nothing where it stays folded.
-std::optional<Positions> cut_along(const Surface& source, const Surface& target, const std::vector<CurvePair>& pairs) {
+std::optional<NaturalStart> cut_along(const Surface& source, const Surface& target, const std::vector<CurvePair>& pairs,
+                                      const char* name) {
     try {
         LpRegistration found = register_least_lp(source, target, {}, pairs);
-        // Other ways to cut may divide other faces: the start is then that of the source's own vertices.
-        std::vector<CurveThrough> curves;
-        for (const CurvePair& pair : pairs) curves.push_back(pair.source);
-        const Positions &own = mesh_with_curves(source.mesh, curves).mesh.positions, &cut = found.source.mesh.positions;
-        if (own.rows() != cut.rows() || own != cut) return std::move(found.positions);
-        return positions_on(target.mesh, found.divided);
+        return NaturalStart{positions_on(target.mesh, found.divided), name, std::move(found.source)};
     } catch (const Error& error) {
         if (error.cause() != Cause::not_solved) throw;
         return {};
@@ -93,8 +89,8 @@ std::optional<NaturalStart> of_sphere(const Surface& source, const Target& targe
     const bool round = dynamic_cast<const SphereTarget*>(&target) != nullptr;
     if (kind.surface && is_sphere(kind.surface->topology)) {
         if (!curves.empty())
-            if (auto cut = cut_along(source, *kind.surface, pairs_on(kind.surface->mesh, curves)))
-                return NaturalStart{std::move(*cut), "cut along curves"};
+            if (auto cut = cut_along(source, *kind.surface, pairs_on(kind.surface->mesh, curves), "cut along curves"))
+                return cut;
         return NaturalStart{register_spheres(source, *kind.surface, {}).positions, "conformal"};
     }
     const std::optional<Eigen::Vector3d> axes = round ? std::optional(Eigen::Vector3d(1, 1, 1)) : kind.half_axes;
@@ -105,8 +101,7 @@ std::optional<NaturalStart> of_sphere(const Surface& source, const Target& targe
         Mesh mesh = icosahedral_sphere(level);
         mesh.positions = mesh.positions * axes->asDiagonal();
         const Surface sphere(std::move(mesh));
-        if (auto cut = cut_along(source, sphere, pairs_on(sphere.mesh, curves)))
-            return NaturalStart{std::move(*cut), "cut along curves"};
+        if (auto cut = cut_along(source, sphere, pairs_on(sphere.mesh, curves), "cut along curves")) return cut;
     }
     return NaturalStart{sphere_map(source).positions * axes->asDiagonal(), "conformal"};
 }
@@ -132,8 +127,8 @@ std::optional<NaturalStart> of_holes(const Surface& source, const Target& target
     const std::size_t loops = source.topology.boundary_loops.size();
     if (kind.surface && has_holes(kind.surface->topology) && kind.surface->topology.boundary_loops.size() == loops) {
         if (!curves.empty())
-            if (auto led = cut_along(source, *kind.surface, pairs_on(kind.surface->mesh, curves)))
-                return NaturalStart{std::move(*led), "led along curves"};
+            if (auto led = cut_along(source, *kind.surface, pairs_on(kind.surface->mesh, curves), "led along curves"))
+                return led;
         return NaturalStart{register_open(source, *kind.surface, {}).positions, "conformal"};
     }
     if (kind.domain) {

@@ -13,9 +13,10 @@ namespace beltrami BELTRAMI_PUBLIC {
 
 /// Where a flow along a target begins that is given no start.
 struct NaturalStart {
-    Positions
-        positions;     ///< #V×3 or #V×2, near the target; with curves perhaps those of the surface divided along them
-    std::string name;  ///< identity, conformal, harmonic, lattice, cut along curves, led along curves
+    Positions positions;  ///< #V×3 or #V×2, near the target
+    std::string name;     ///< identity, conformal, harmonic, lattice, cut along curves, led along curves
+    /// The source divided along its curves, if that is what has positions; else it is the source itself.
+    std::optional<MeshWithCurves> source = {};
 };
 
 /// What a target is, beside its points.
