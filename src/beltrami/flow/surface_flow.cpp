@@ -104,10 +104,8 @@ class Flow {
                 continue;
             }
             if (scheme_.now(flips_) != scheme || opens_patches() || scheme_.turns(flips_)) continue;
-            if (end == End::settled && flips_ == 0)
-                result_.termination = Termination::converged;
-            else if (taken.length > 0 || end == End::settled)
-                result_.termination = Termination::unconfirmed;
+            result_.termination =
+                end == End::settled && flips_ == 0 ? Termination::converged : Termination::unconfirmed;
             break;
         }
         if (result_.termination == Termination::iteration_limit) opens_patches();
