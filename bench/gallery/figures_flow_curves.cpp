@@ -80,19 +80,33 @@ std::vector<std::vector<int>> chains_of(const MeshWithCurves& source) {
     return chains;
 }
 
+/// A flow along curves, of a surface divided along them.
+struct AlongCurves {
+    HeldCurves held;
+    Surface divided;
+    SurfaceFlowMap flow;
+    int flipped_at_start;
+    double seconds;
+};
+
+AlongCurves flow_along_curves(const Surface& source, const Target& target, const TargetKind& kind,
+                              const std::vector<CurveOnto>& curves) {
+    const double begun = seconds_now();
+    NaturalStart start = natural_start(source, target, kind, curves);
+    HeldCurves held = start.source ? held_curves(std::move(*start.source), target, curves, start.positions)
+                                   : held_curves(source.mesh, target, curves, start.positions);
+    Surface divided(held.source.mesh);
+    LedMap led = led_map(divided, target, held.constraints, {nearest_points(target, held.start), {}},
+                         target_map(divided, target, held.constraints, held.wanted));
+    const int flipped = led.flips;
+    SurfaceFlowMap flow = least_lp_map(divided, target, {2, {}}, held.constraints, std::move(led.map));
+    return {std::move(held), std::move(divided), std::move(flow), flipped, seconds_now() - begun};
+}
+
 void onto_sphere(Output& output, Figure& figure, Table& table, const std::string& name, const Surface& source,
                  const std::vector<CurveOnto>& curves, double azimuth, double elevation) {
     const SphereTarget sphere;
-    const double begun = seconds_now();
-    NaturalStart begin = natural_start(source, sphere, {}, curves);
-    HeldCurves held = begin.source ? held_curves(std::move(*begin.source), sphere, curves, begin.positions)
-                                   : held_curves(source.mesh, sphere, curves, begin.positions);
-    const Surface divided(held.source.mesh);
-    LedMap led = led_map(divided, sphere, held.constraints, {nearest_points(sphere, held.start), {}},
-                         target_map(divided, sphere, held.constraints, held.wanted));
-    const int flipped_at_start = led.flips;
-    const SurfaceFlowMap flow = least_lp_map(divided, sphere, {2, {}}, held.constraints, std::move(led.map));
-    const double seconds = seconds_now() - begun;
+    const auto [held, divided, flow, flipped_at_start, seconds] = flow_along_curves(source, sphere, {}, curves);
     const Positions image = positions_of(flow.map.points), free = sphere_map(divided).positions;
     double off = 0, off_free = 0;
     for (const MeshWithCurves::Chain& chain : held.source.curves) {
@@ -137,13 +151,19 @@ std::vector<CurveOnto> curves_of_brain(const Surface& source) {
 }
 
 /// A scan onto another one, with so many curves between points that their landmarks name.
-void onto_scan(Table& table, const Surface& source, const Surface& target, const std::vector<CurvePair>& pairs) {
-    const double begun = seconds_now();
-    const LpRegistration found = register_least_lp(source, target, {}, pairs);
+void onto_scan(Table& table, const Surface& source, const Surface& onto, const std::vector<CurveOnto>& curves,
+               const MeshTarget& target) {
+    const AlongCurves found = flow_along_curves(source, target, {&onto}, curves);
+    double off = 0;
+    for (const TargetConstraints::Slide& slide : found.held.constraints.sliding) {
+        const SlideCurve& partner = *found.held.constraints.curves[slide.curve];
+        const Eigen::Vector3d point = found.flow.map.points[slide.vertex].position;
+        off = std::max(off, (partner.point(partner.nearest(point)) - point).norm());
+    }
     std::vector<std::string> row{"hand_closed", std::to_string(source.mesh.face_count()), "hippocampus",
-                                 std::to_string(pairs.size()), ""};
-    for (std::string& cell : numbers_of(found.map, seconds_now() - begun)) row.push_back(std::move(cell));
-    row.insert(row.end(), {"", scientific(found.curve_distance)});
+                                 std::to_string(curves.size()), std::to_string(found.flipped_at_start)};
+    for (std::string& cell : numbers_of(found.flow, found.seconds)) row.push_back(std::move(cell));
+    row.insert(row.end(), {"", scientific(off)});
     table.rows.push_back(std::move(row));
 }
 
@@ -174,14 +194,14 @@ Figure flow_curves(Output& output) {
     const auto hand = scan_path("hand_closed.obj"), hippocampus = scan_path("hippocampus.obj");
     if (hand && hippocampus) {
         const Surface source(read_mesh(*hand).mesh), target(read_mesh(*hippocampus).mesh);
-        std::vector<CurvePair> pairs;
+        const MeshTarget along(target.mesh);
+        std::vector<CurveOnto> curves;
         for (const auto& [a, b, c, d] :
              {std::array{315, 5862, 742, 691}, {2755, 5206, 3696, 3896}, {6691, 6400, 3990, 243}}) {
-            const auto between = [](const Surface& surface, int from, int to) {
-                return CurveThrough{{place_of_vertex(surface.mesh, from), place_of_vertex(surface.mesh, to)}, false};
-            };
-            pairs.push_back({between(source, a, b), between(target, c, d), true});
-            onto_scan(table, source, target, pairs);
+            curves.push_back({{{place_of_vertex(source.mesh, a), place_of_vertex(source.mesh, b)}, false},
+                              {along.at_vertex(c), along.at_vertex(d)},
+                              true});
+            onto_scan(table, source, target, curves, along);
         }
     }
     figure.tables.push_back(std::move(table));
