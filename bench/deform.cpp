@@ -158,7 +158,7 @@ void cylinders(bool bump, bool fine) {
     const int n = fine ? 2 : 1;
     for (const Cells cells : {Cells::triangles, Cells::quads})
         for (const double part : bump ? std::vector<double>{0.8} : std::vector<double>{0.8, 0.95}) {
-            const Mesh mesh = cylinder(1, 2, 48 * n, 16 * n, cells);
+            const Mesh mesh = cylinder_to_lower(n, cells);
             const ParametricTarget target = cylinder_target(1, 2);
             const Case c(fmt::format("{} {:.0f} %, {}", bump ? "bump" : "cylinder", 100 * part,
                                      cells == Cells::quads ? "quads" : "triangles"),

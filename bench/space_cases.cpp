@@ -84,18 +84,28 @@ Handles turned(const Mesh& mesh, double angle, double pull, double scale, bool a
     return handles;
 }
 
-Mesh torus_with_hole() {
-    constexpr int kAlong = 32;
-    const Mesh quads = torus(2, 1, 64, kAlong, Cells::quads);
+Mesh alternating_triangles(const Mesh& quads, int rows) {
     Mesh mesh;
     mesh.positions = quads.positions;
     for (int f = 0; f < quads.face_count(); ++f) {
         const auto v = quads.faces[f];
-        const bool even = (f / kAlong + f % kAlong) % 2 == 0;
+        const bool even = (f / rows + f % rows) % 2 == 0;
         mesh.faces.add(even ? std::array{v[0], v[1], v[2]} : std::array{v[0], v[1], v[3]});
         mesh.faces.add(even ? std::array{v[0], v[2], v[3]} : std::array{v[1], v[2], v[3]});
     }
-    return part_of(mesh, [](const Eigen::Vector3d& p) { return (p - Eigen::Vector3d(-3, 0, 0)).norm() > 0.85; });
+    return mesh;
+}
+
+Mesh cylinder_to_lower(int fineness, Cells cells) {
+    const int rows = 16 * fineness;
+    Mesh quads = cylinder(1, 2, 48 * fineness, rows, Cells::quads);
+    return cells == Cells::quads ? quads : alternating_triangles(quads, rows);
+}
+
+Mesh torus_with_hole() {
+    constexpr int kAlong = 32;
+    return part_of(alternating_triangles(torus(2, 1, 64, kAlong, Cells::quads), kAlong),
+                   [](const Eigen::Vector3d& p) { return (p - Eigen::Vector3d(-3, 0, 0)).norm() > 0.85; });
 }
 
 Mesh sphere_with_holes() {

@@ -23,6 +23,10 @@ Handles arrow_head(const Mesh& square, double push);
 /// Boundary loops turned about their axes, pulled along them and scaled; every other one the other way, if wanted.
 Handles turned(const Mesh& mesh, double angle, double pull, double scale, bool alternating);
 
+/// Quads of a grid, so many rows to a column, as two triangles each, diagonals this way and that.
+Mesh alternating_triangles(const Mesh& quads, int rows);
+/// The cylinder of radius 1 and height 2, 48 × 16 cells or so many times more each way.
+Mesh cylinder_to_lower(int fineness, Cells cells);
 /// The torus of radii 2 and 1 with a hole at its outer equator, 4 008 faces, diagonals of its grid this way and that.
 Mesh torus_with_hole();
 /// The sphere with a hole at each of six ends, 6 128 faces.

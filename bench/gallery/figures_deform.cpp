@@ -159,7 +159,7 @@ Figure space_06(Output& output) {
         "in front and a simple zero at the back, which add up to the index 0 of the cylinder."};
     const ParametricTarget target = cylinder_target(1, 2);
     for (const double part : {0.8, 0.95}) {
-        const Mesh mesh = cylinder(1, 2, 48, 16);
+        const Mesh mesh = bench::cylinder_to_lower(1, Cells::triangles);
         const Problem problem(mesh, lowered(mesh, part), &target);
         const std::string percent = part == 0.8 ? "80 %" : "95 %";
         SpaceFigure shown(output, figure, part == 0.8 ? "space_06" : "space_08", problem.surface.mesh, problem.elements,
@@ -218,7 +218,7 @@ Figure space_steps(Output& output) {
         "passes over the edges between two steps."};
     const ParametricTarget round = cylinder_target(1, 2);
     const PlaneTarget flat;
-    const Mesh pipe = cylinder(1, 2, 48, 16);
+    const Mesh pipe = bench::cylinder_to_lower(1, Cells::triangles);
     Mesh square = rectangle(1, 1, 28, 28);
     square.positions.conservativeResize(Eigen::NoChange, 3);
     square.positions.col(2).setZero();

@@ -1,6 +1,7 @@
 #include <beltrami/applications/deform.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <limits>
 #include <string>
@@ -8,6 +9,7 @@
 
 #include <beltrami/applications/handled_surface.h>
 #include <beltrami/applications/held_maps.h>
+#include <beltrami/applications/unrolled_extremal.h>
 #include <beltrami/base/error.h>
 #include <beltrami/locate/point_at.h>
 #include <beltrami/mesh/planar.h>
@@ -24,6 +26,7 @@ namespace beltrami {
 namespace {
 
 constexpr double kDamping = 0.01;
+constexpr double kFarAway = 1e-2;  // of a handle's place from a target, of the root of the source's area
 constexpr int kUniformSteps = 40, kDifferentialSteps = 30;
 constexpr double kDifferentialTolerance = 1e-3;
 
@@ -240,12 +243,32 @@ struct DeformSolver::Parts {
         return UnrolledTarget{surface, std::move(*places), std::move(fixed)};
     }
 
-    /// The QC iteration on a target that can be unrolled.
+    /// Whether the source is an annulus whose boundary, and nothing else, is held.
+    bool is_held_annulus() const {
+        const Topology& topology = source.topology;
+        return maps.refusal().empty() && topology.boundary_loops.size() == 2 &&
+               std::all_of(handles.begin(), handles.end(), [&](int v) { return topology.on_boundary[v] != 0; });
+    }
+
+    /// The extremal map of an annulus, or the QC iteration, on a target that can be unrolled.
     std::optional<Deformation> by_unrolled_map(const Target& target, const Mesh& begin,
                                                const TargetConstraints& held) const {
-        if (options.goal != DeformGoal::spread) return {};
         const std::optional<UnrolledTarget> unrolled = unrolled_target(target, begin, held);
         if (!unrolled) return {};
+        if (options.goal == DeformGoal::dilatation) {
+            if (!is_held_annulus()) return {};
+            ExtremalMap map =
+                extremal_unrolled_map(source, elements, unrolled->places, unrolled->fixed, options.progress);
+            Deformation result = measured(target, rolled_up(*unrolled->surface, map.map), begin);
+            if (!flipped_freely(result.distortion).empty()) return {};
+            result.goal = options.goal;
+            result.steps = map.iterations;
+            result.settled = map.termination == Termination::converged;
+            result.factorizations = map.factorizations + surfaces.factorization_count();
+            result.warnings = map.warnings;
+            result.extremal = std::move(map);
+            return result;
+        }
         UniformOptions uniform;
         uniform.max_iterations = kUniformSteps;
         uniform.progress = options.progress;
@@ -330,6 +353,20 @@ struct DeformSolver::Parts {
             if (error.cause() != Cause::not_solved || !direct) throw;
         }
         return std::move(*direct);
+    }
+
+    /// Why maps fold onto a target from which the handles' places are far.
+    /// @param folded where
+    /// @throw Error not_solved
+    void require_places_on(const Target& target, const Positions& places, const Where& folded) const {
+        const Eigen::VectorXd away = (positions_of(nearest_points(target, places)) - places).rowwise().norm();
+        Eigen::Index farthest = 0;
+        if (!(away.maxCoeff(&farthest) > kFarAway * std::sqrt(surface_area(source.mesh)))) return;
+        const int vertex = handles[static_cast<std::size_t>(farthest)];
+        throw Error(Cause::not_solved,
+                    "faces fold on the surface that is given, and places of handles are not on it: that of vertex " +
+                        std::to_string(vertex) + " is " + std::to_string(away[farthest]) + " away from it",
+                    "give places on the surface", folded);
     }
 
     /// The same in a plane without folds; nothing if that cannot be had.
@@ -418,7 +455,13 @@ Deformation DeformSolver::solve_onto(const Target& target, const Positions& plac
     for (const auto& loop : p.source.topology.boundary_loops)
         for (const int v : loop)
             if (!fixed[v]) held.fixed.push_back(v);
-    Deformation result = p.along(target, begin, held, 2);
+    Deformation result;
+    try {
+        result = p.along(target, begin, held, 2);
+    } catch (const Error& error) {
+        if (error.cause() == Cause::not_solved) p.require_places_on(target, places, error.where());
+        throw;
+    }
     result.kind = DeformedSurface::given;
     return result;
 }

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include <beltrami/base/constants.h>
 #include <beltrami/mesh/strip.h>
 #include <beltrami/solve/beltrami_solver.h>
 #include <beltrami/solve/laplacian.h>
@@ -38,6 +38,11 @@ Eigen::VectorXd periodic_harmonic(const Surface& surface, const std::vector<doub
             force[stencil[i]] -= operators.weights[s] * std::real(std::conj(gradient[i]) * slope);
     }
     return detail::Laplacian(operators, held).solve(force);
+}
+
+/// Of the annulus whose turn has the length 2π.
+double strip_height(const AnnulusPotentials& potentials) {
+    return kTurn * std::sqrt(potentials.v_energy / potentials.u_energy);
 }
 
 }  // namespace
@@ -85,11 +90,26 @@ AnnulusPotentials annulus_potentials(const Surface& surface, int outer_loop) {
 
 Eigen::VectorXcd annulus_map(const Surface& surface, int outer_loop) {
     const AnnulusPotentials potentials = annulus_potentials(surface, outer_loop);
-    const double modulus = 2 * std::numbers::pi * std::sqrt(potentials.v_energy / potentials.u_energy);
+    const double modulus = strip_height(potentials);
     Eigen::VectorXcd g(potentials.u.size());
     for (Eigen::Index i = 0; i < g.size(); ++i)
-        g[i] = std::polar(std::exp(-modulus * potentials.u[i]), 2 * std::numbers::pi * potentials.v[i]);
+        g[i] = std::polar(std::exp(-modulus * potentials.u[i]), kTurn * potentials.v[i]);
     return g;
+}
+
+AnnulusStrip annulus_strip(const Surface& surface, int outer_loop) {
+    const AnnulusPotentials potentials = annulus_potentials(surface, outer_loop);
+    const FaceList& faces = surface.mesh.faces;
+    AnnulusStrip strip{Eigen::VectorXcd(faces.corner_count()), strip_height(potentials)};
+    for (int f = 0; f < faces.size(); ++f) {
+        const double first = potentials.v[faces[f][0]];
+        for (int j = 0; j < faces.degree(f); ++j) {
+            const double v = potentials.v[faces[f][j]];
+            strip.corners[faces.first_corner(f) + j] = {kTurn * (v - std::round(v - first)),
+                                                        strip.height * potentials.u[faces[f][j]]};
+        }
+    }
+    return strip;
 }
 
 }  // namespace beltrami

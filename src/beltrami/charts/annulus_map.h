@@ -28,4 +28,15 @@ AnnulusPotentials annulus_potentials(const Surface& surface, int outer_loop);
 /// @throw Error not_solved
 Eigen::VectorXcd annulus_map(const Surface& surface, int outer_loop);
 
+/// The same annulus as a strip of the plane with the period 2π: w = 2π(v + iu/T), −i times the logarithm of the round
+/// one. Of a cylinder that is the plane into which it is unrolled, where its chart is exact; in the ring of radii
+/// e^{−Y} and 1 a face of width h has errors of h.
+struct AnnulusStrip {
+    Eigen::VectorXcd corners;  ///< #corners: where each face lies, as a whole (make_atlas)
+    double height = 0;         ///< Y; the outer loop lies at 0
+};
+/// @pre one component of genus 0 with two boundary loops, every edge of less than half a turn
+/// @throw Error not_solved
+AnnulusStrip annulus_strip(const Surface& surface, int outer_loop);
+
 }  // namespace beltrami

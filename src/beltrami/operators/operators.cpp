@@ -238,9 +238,13 @@ Positions corners_from_lengths(const Mesh& mesh, std::span<const EdgeLength> len
 Operators per_corner(const Operators& operators, const FaceList& faces) {
     Operators result = operators;
     result.vertex_count = faces.corner_count();
-    for (int s = 0; s < result.sample_count(); ++s)
-        for (int j = result.offsets[s], corner = faces.first_corner(result.faces[s]); j < result.offsets[s + 1]; ++j)
-            result.vertices[j] = corner++;
+    for (int s = 0; s < result.sample_count(); ++s) {
+        const auto face = faces[result.faces[s]];
+        const int first = faces.first_corner(result.faces[s]);
+        for (int j = result.offsets[s]; j < result.offsets[s + 1]; ++j)
+            result.vertices[j] =
+                first + static_cast<int>(std::find(face.begin(), face.end(), result.vertices[j]) - face.begin());
+    }
     return result;
 }
 

@@ -23,6 +23,11 @@ struct ImageFrame {
     }
 };
 
+/// Of a map to the plane.
+inline ImageFrame plane_frame(Complex p, Complex q) {
+    return {p, q, Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), std::norm(q) < std::norm(p)};
+}
+
 /// @param points  #V×3
 /// @param normals #V×3 of the surface at the points, of length 1
 ImageFrame image_frame(const Operators& operators, int sample, const Positions& points, const Positions& normals);

@@ -1,12 +1,11 @@
 #include <beltrami/solve/sphere_map_step.h>
 
+#include <beltrami/solve/differential_weights.h>
 #include <beltrami/solve/raised_corners.h>
 
 namespace beltrami {
 
 namespace {
-
-constexpr double kFloor = 0.05;  // weight of the area beside that of |φ|
 
 std::vector<Freedom> pinned_freedoms(const Surface& source, std::span<const int> pinned) {
     std::vector<Freedom> freedoms(static_cast<std::size_t>(source.mesh.vertex_count()), Freedom::fixed);
@@ -26,12 +25,7 @@ SphereMapStep::SphereMapStep(const Surface& source, std::span<const int> pinned,
       points_(std::move(points)) {}
 
 void SphereMapStep::weigh(const Eigen::VectorXcd& phi) {
-    const std::vector<double>& areas = source_.operators.weights;
-    double total = 0;
-    for (std::size_t s = 0; s < areas.size(); ++s) total += areas[s] * std::abs(phi[static_cast<Eigen::Index>(s)]);
-    const double floor = kFloor / source_.operators.area(), factor = total > 0 ? 1 / total : 0;
-    for (std::size_t s = 0; s < areas.size(); ++s)
-        weights_[s] = areas[s] * (factor * std::abs(phi[static_cast<Eigen::Index>(s)]) + floor);
+    weights_ = weights_of_differential(source_.operators.weights, phi);
 }
 
 void SphereMapStep::solve(const Eigen::VectorXcd& nu, double /*tolerance*/) {

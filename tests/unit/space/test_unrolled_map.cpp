@@ -5,7 +5,7 @@
 #include <beltrami/base/constants.h>
 #include <beltrami/generate/grids.h>
 #include <beltrami/operators/distortion.h>
-#include <beltrami/space/unrolled_map.h>
+#include <beltrami/space/unrolled_map_step.h>
 
 namespace beltrami {
 namespace {
@@ -102,6 +102,46 @@ TEST(UnrolledMap, TheIterationSpreadsLittleWhereLeastSquaresFolds) {
     EXPECT_TRUE(last.flipped.empty());
     EXPECT_LT(last.standard_deviation, 0.0225);
     EXPECT_NEAR(last.mean, 0.563, 0.005);
+}
+
+// From a start without folds, where the least-squares map has some, a step flips nothing.
+TEST(UnrolledMap, StepsFlipNothing) {
+    const Mesh mesh = cylinder(1, 2, 48, 16, Cells::triangles);
+    const ParametricTarget target = cylinder_target(1, 2);
+    const CornerElements elements = corner_elements(mesh);
+    Positions lowered = mesh.positions;  // sheared downwards
+    std::vector<char> fixed(static_cast<std::size_t>(mesh.vertex_count()), 0);
+    for (int v = 0; v < mesh.vertex_count(); ++v) {
+        const double z = mesh.positions(v, 2), angle = std::atan2(mesh.positions(v, 1), mesh.positions(v, 0));
+        fixed[v] = z < 1e-9 || z > 2 - 1e-9;
+        lowered(v, 2) = z * (1 - 0.4 * (1 - std::cos(angle)));
+    }
+    const UnrolledPlaces places = unrolled_places(target, mesh.faces, nearest_points(target, lowered)).value();
+    UnrolledMapStep step(mesh, elements, places, fixed);
+    const auto largest = [&] { return beltrami_coefficient(step.derivatives()).cwiseAbs().maxCoeff(); };
+    ASSERT_LT(largest(), 1);
+    step.weigh(Eigen::VectorXcd::Ones(elements.operators.sample_count()));
+    double last = 0;
+    for (int i = 0; i < 5; ++i) {
+        step.solve(Eigen::VectorXcd::Zero(elements.operators.sample_count()), 0);
+        EXPECT_LT(largest(), 1) << i;
+        last = step.last_length();
+    }
+    EXPECT_GT(last, 0);
+    // The Gauss-Newton step of the energy goes where that falls.
+    UnrolledProblem problem(mesh, elements, places, fixed);
+    const std::vector<double> weights(static_cast<std::size_t>(elements.operators.sample_count()), 1.0);
+    const BarrierEnergy energy(Eigen::VectorXcd::Zero(elements.operators.sample_count()), weights);
+    const auto value = [&] {
+        const MapDerivatives map = problem.derivatives();
+        double sum = 0;
+        for (int s = 0; s < map.dz.size(); ++s) sum += energy.value(plane_frame(map.dz[s], map.dzbar[s]), s);
+        return sum;
+    };
+    const double before = value();
+    const Eigen::VectorXcd way = problem.step(energy);
+    problem.set_map(problem.map() + 0.1 * way);
+    EXPECT_LT(value(), before);
 }
 
 TEST(UnrolledMap, ATorusCannotBeUnrolled) {
