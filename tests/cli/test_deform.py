@@ -111,6 +111,10 @@ class Deform(Command):
         self.assertIn("twice", self.run_command(*arguments, code=5).stderr)
         path.write_text("0 1 2\n")
         self.assertIn("pins.txt:1", self.run_command(*arguments, code=3).stderr)
+        # In the hole of the surface that is given, of whose points the nearest are on its rim.
+        places = [-3, 0, 0] + 0.3 * (self.points[self.loop[::-1]] - [-3, 0, 0])
+        path.write_text("".join(f"{v} {x!r} {y!r} {z!r}\n" for v, (x, y, z) in zip(self.loop.tolist(), places.tolist())))
+        self.assertIn("away from it", self.run_command(*arguments, "--onto", self.path("a.obj"), code=6).stderr)
 
 
 if __name__ == "__main__":
