@@ -5,7 +5,7 @@
 //                  [--double-torus EDGE]
 //     bench_remesh --speed MESH...
 //
-// As in docs/remesh.md: the noisy torus is punctured_torus with --noise .3 --holes 19 --fixed-border, the part
+// As in docs/remesh.md: the noisy torus is torus.obj with --noise .3 --holes 19 --fixed-border, the part
 // --features 40 --noise .3 --part .08, the double torus --double-torus .14. --speed measures least-squares maps and
 // steps alone, of meshes of any size: --speed --double-torus .0205 has 100 000 faces.
 //

@@ -23,6 +23,8 @@ namespace {
 constexpr double kNeedle = 0.999;  // |μ| of a face from which on steps begin strongly damped
 constexpr double kNeedleDamping = 1e5;
 constexpr int kFirstSteps = 6, kPowerSteps = 8, kRounds = 25, kStepsOfRound = 2;
+constexpr double kGrowth = 4;                   // of what draws back vertices that stray
+constexpr int kPatientRounds = 15;              // after which it grows faster
 constexpr int kAttempts = 4, kFrozenRings = 1;  // of vertices that stay from the second attempt on
 constexpr double kGain = 0.003;                 // of the mean of ψ^{p/2}: what two steps have to bring for two more
 constexpr double kTolerance = 1e-3, kRoundTolerance = 1e-4;
@@ -148,7 +150,7 @@ class Rounds {
         double least = std::numeric_limits<double>::infinity(), last = least;
         for (; result.rounds < kRounds; ++result.rounds) {
             const double mean = mean_power(map.coefficients());
-            bad = draw_back(map);
+            bad = draw_back(map, best ? kGrowth : growth_in(result.rounds));
             if (bad.empty() && mean < least) {
                 least = mean;
                 best = map.map();
@@ -172,7 +174,7 @@ class Rounds {
         for (int round = 0, futile = 0; round < kOpeningRounds && futile < kFutileOpenings; ++round) {
             map.open_angles((most.one_percent + kOpenedBy) * kDegree);
             map.relax(options_.power, kOpeningSteps, kRoundTolerance);
-            const bool kept = draw_back(map).empty();
+            const bool kept = draw_back(map, kGrowth).empty();
             const AngleStatistics now = angles(map);
             const bool gains = now.one_percent + now.smallest >= most.one_percent + most.smallest + kOpeningGain;
             if (!gains) ++futile;
@@ -194,13 +196,16 @@ class Rounds {
     }
 
     /// @return vertices that are too far away, or in faces that newly oppose the surface
-    std::vector<int> draw_back(TangentialMap& map) const {
+    std::vector<int> draw_back(TangentialMap& map, double growth) const {
         std::vector<int> bad = around_newly_opposed(map.positions());
         map.draw_back(bad);
-        const std::vector<int> strayed = map.hold_within(allowed_);
+        const std::vector<int> strayed = map.hold_within(allowed_, growth);
         bad.insert(bad.end(), strayed.begin(), strayed.end());
         return bad;
     }
+
+    /// What vertices that stray are drawn back by more, while no map has kept the distance yet.
+    static double growth_in(int round) { return round < kPatientRounds ? kGrowth : kGrowth * kGrowth * kGrowth; }
 
     double mean_power(const Eigen::VectorXcd& mu) const {
         double sum = 0;

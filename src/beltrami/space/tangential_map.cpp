@@ -397,10 +397,10 @@ int TangentialMap::relax(double power, int max_steps, double tolerance) {
     return max_steps;
 }
 
-std::vector<int> TangentialMap::hold_within(double distance) {
+std::vector<int> TangentialMap::hold_within(double distance, double growth) {
     if (!gap_) gap_ = std::make_unique<SurfaceGap>(start_.mesh, target_);
     std::vector<int> strayed = gap_->strayed(positions(), distance);
-    for (const int v : strayed) stiffness_[v] = std::max(kStiffnessFactor * stiffness_[v], kFirstStiffness);
+    for (const int v : strayed) stiffness_[v] = std::max(growth * stiffness_[v], kFirstStiffness);
     return strayed;
 }
 

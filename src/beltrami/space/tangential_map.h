@@ -60,8 +60,9 @@ class TangentialMap {
     void set_progress(Progress progress) { progress_ = std::move(progress); }
 
     /// Raises κ where start and image are farther apart than a distance (surface_gap.h).
+    /// @param growth what κ is multiplied by
     /// @return these vertices, ascending
-    std::vector<int> hold_within(double distance);
+    std::vector<int> hold_within(double distance, double growth = 4);
     /// Raises κ of vertices, and draws them in every direction, not only off their faces' planes.
     void draw_back(std::span<const int> vertices);
 
