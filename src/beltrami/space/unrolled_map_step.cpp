@@ -37,9 +37,11 @@ UnrolledMapStep::Height UnrolledMapStep::height(const BarrierEnergy& energy) con
 /// @return the part that was taken, 0: none
 double UnrolledMapStep::go(const Eigen::VectorXcd& from, const Eigen::VectorXcd& way, const BarrierEnergy& energy,
                            const Height& before) {
-    for (double part = 1; part > kLeastStep; part /= 2) {
+    double part = 1;
+    while (part > kLeastStep) {
         problem_.set_map(from + part * way);
         if (height(energy) < before) return part;
+        part /= 2;
     }
     problem_.set_map(from);
     return 0;
