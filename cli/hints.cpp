@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -37,6 +38,8 @@ constexpr std::array kWarningHints{
 }  // namespace
 
 std::string hint(const Error& error) {
+    if (std::string_view(error.what()).find("give a start map") != std::string_view::npos)
+        return "--start-map FILE reads one";
     const auto* found = std::find_if(kErrorHints.begin(), kErrorHints.end(), [&](const ErrorHint& row) {
         return row.cause == error.cause() && row.of == error.where().of;
     });
