@@ -1,13 +1,12 @@
 # One folder of src/beltrami is one layer. Each layer is an object library whose include path holds its own headers and
 # those of the layers it may use, nothing else: an #include of a layer further down does not compile.
 #
-#   beltrami_layer(<name> [USES <layer>...] [LIBRARIES <target>...] [WITHOUT <file>...] [PRIVATE <header>...]
-#                  [ALONE <file>...])
+#   beltrami_layer(<name> [USES <layer>...] [LIBRARIES <target>...] [WITHOUT <file>...] [PRIVATE <header>...])
 #
 # USES names the layers directly above; theirs come along. LIBRARIES are private third-party targets. WITHOUT names
 # files of the folder that beltrami_choice() compiles, of which a library takes one. PRIVATE headers are seen by the layer
-# itself and its tests alone. Files are compiled few at a time (BELTRAMI_QUICK_BUILD), but for those ALONE, which give the
-# names of others in their folder another meaning.
+# itself and its tests alone. Files are compiled a dozen at a time (BELTRAMI_QUICK_BUILD), so a name that is a file's own is
+# no other's in its folder.
 set(BELTRAMI_LAYERS "" CACHE INTERNAL "")
 
 # Links in the folder <open> to the headers of <folder> that are not private.
@@ -30,7 +29,7 @@ function(beltrami_own_headers layer target)
 endfunction()
 
 function(beltrami_layer name)
-    cmake_parse_arguments(ARG "" "" "USES;LIBRARIES;WITHOUT;PRIVATE;ALONE" ${ARGN})
+    cmake_parse_arguments(ARG "" "" "USES;LIBRARIES;WITHOUT;PRIVATE" ${ARGN})
     set(folder ${CMAKE_CURRENT_SOURCE_DIR}/src/beltrami/${name})
     file(GLOB sources CONFIGURE_DEPENDS ${folder}/*.cpp ${folder}/*.h)
     list(TRANSFORM ARG_WITHOUT PREPEND ${folder}/)
@@ -62,8 +61,7 @@ function(beltrami_layer name)
     endforeach()
     set_target_properties(beltrami_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON
         CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
-    list(TRANSFORM ARG_ALONE PREPEND ${folder}/)
-    beltrami_few_at_a_time(beltrami_${name} 8 ${ARG_ALONE})
+    beltrami_few_at_a_time(beltrami_${name} 12)
     set(BELTRAMI_LAYERS ${BELTRAMI_LAYERS} ${name} CACHE INTERNAL "")
 endfunction()
 

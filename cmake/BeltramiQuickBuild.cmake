@@ -1,10 +1,7 @@
 # Compiles COUNT files of a target at a time (BELTRAMI_QUICK_BUILD): what they share is read and instantiated once for all of
-# them. Those in ARGN stay alone.
+# them.
 function(beltrami_few_at_a_time target count)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ${BELTRAMI_QUICK_BUILD} UNITY_BUILD_BATCH_SIZE ${count})
-    if(ARGN)
-        set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-    endif()
 endfunction()
 
 # For a program whose own code is compiled with few optimisations, in less than half the time, since it is not where the time

@@ -20,6 +20,23 @@ inline Eigen::VectorXcd complex_positions(const Mesh& mesh) {
     return z;
 }
 
+/// The mesh with its vertices moved by a function of x + iy.
+template <class Map>
+Mesh moved(Mesh mesh, const Map& map) {
+    for (int v = 0; v < mesh.vertex_count(); ++v) {
+        const Complex w = map(Complex(mesh.positions(v, 0), mesh.positions(v, 1)));
+        mesh.positions.row(v) << w.real(), w.imag();
+    }
+    return mesh;
+}
+
+/// Largest distance after the best similarity (orientation kept), relative to the size of the target.
+inline double distance_up_to_similarity(const Eigen::VectorXcd& map, const Eigen::VectorXcd& target) {
+    const Eigen::VectorXcd a = map.array() - map.mean(), b = target.array() - target.mean();
+    const Complex factor = a.dot(b) / a.squaredNorm();
+    return (factor * a - b).cwiseAbs().maxCoeff() / (2 * b.cwiseAbs().maxCoeff());
+}
+
 /// By inverse stereographic projection, which is conformal.
 inline Mesh on_sphere(const Mesh& mesh) {
     Mesh result = mesh;

@@ -15,19 +15,19 @@ namespace {
 
 constexpr int kExpectedFactorizations = 20;
 /// |μ| counts as at most this, so that flipped faces do not spoil the mean.
-constexpr double kMostMu = 0.95;
+constexpr double kMostSchemeMu = 0.95;
 /// Of a linear solve, relative to the map.
 constexpr double kSolveTolerance = 1e-10;
 
-/// μ of a map, held below kMostMu.
+/// μ of a map, held below kMostSchemeMu.
 Eigen::VectorXcd held_coefficient(const Surface& source, const Eigen::VectorXcd& map) {
     Eigen::VectorXcd mu = beltrami_coefficient(source.operators, map);
     for (Complex& value : mu) {
         const double size = std::abs(value);
         if (!std::isfinite(size)) {
-            value = kMostMu;
-        } else if (size > kMostMu) {
-            value *= kMostMu / size;
+            value = kMostSchemeMu;
+        } else if (size > kMostSchemeMu) {
+            value *= kMostSchemeMu / size;
         }
     }
     return mu;

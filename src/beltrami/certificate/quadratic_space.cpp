@@ -13,7 +13,7 @@ namespace beltrami {
 namespace {
 
 /// Bernstein bounds are subdivided so often where they exceed what is attained, and where they prove nothing.
-constexpr int kDepth = 4, kProofDepth = 9;
+constexpr int kSpaceDepth = 4, kSpaceProofDepth = 9;
 /// A bound may be larger by this part than what is attained.
 constexpr double kCloseEnough = 1e-6;
 /// Rays of a power element at which it is sampled.
@@ -105,7 +105,7 @@ struct Rays {
 template <class Element>
 double refined_bound(const Element& element, double enough, int depth) {
     const double bound = element.bound();
-    if (bound <= enough || depth >= (std::isfinite(bound) ? kDepth : kProofDepth)) return bound;
+    if (bound <= enough || depth >= (std::isfinite(bound) ? kSpaceDepth : kSpaceProofDepth)) return bound;
     double result = 0;
     for (const Element& part : element.parts()) {
         result = std::max(result, refined_bound(part, enough, depth + 1));

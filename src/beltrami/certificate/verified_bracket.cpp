@@ -25,7 +25,7 @@ constexpr double kRefined = 0.3;
 /// Rounding of the bounds.
 constexpr double kRounding = 1e-12;
 
-struct Level {
+struct MapLevel {
     Surface surface;
     BoundaryCondition boundary;
 };
@@ -234,7 +234,7 @@ class Bracketing {
     }
 
     VerifiedBracketOptions options_;
-    Level level_;
+    MapLevel level_;
     QuadraticMap map_;
     std::vector<int> cones_;
     double result_K_lower_ = 1, K_upper_ = std::numeric_limits<double>::infinity(), pair_ = 1;

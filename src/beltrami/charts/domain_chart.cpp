@@ -172,14 +172,14 @@ Chart approximate_chart(const Surface& source, int outer_loop, const DomainChart
 }
 
 /// |μ| of a chart from which on it says nothing about a sample, as in make_chart.
-constexpr double kMostDistorted = 0.5;
+constexpr double kMostDistortedDomain = 0.5;
 
 /// Whether a chart is far from conformal, or turned over, at a sample where another one is not. The series of a
 /// rounding can be steep at the rim, where a mesh with corners has few and long edges.
 bool distorts_more(const Surface& source, const Eigen::VectorXcd& vertices, const Eigen::VectorXcd& before) {
     const auto turned = [&](int s, const Eigen::VectorXcd& z) {
         const auto [dz, dzbar] = source.operators.derivatives(s, z);
-        return !(std::abs(dzbar) < kMostDistorted * std::abs(dz));
+        return !(std::abs(dzbar) < kMostDistortedDomain * std::abs(dz));
     };
     for (int s = 0; s < source.operators.sample_count(); ++s)
         if (turned(s, vertices) && !turned(s, before)) return true;

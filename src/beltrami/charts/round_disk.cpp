@@ -24,9 +24,9 @@ Eigen::VectorXd harmonic_extension(const BeltramiSolver& dirichlet, const Eigen:
 /// From so many samples on flattening a patch instead of the whole surface saves much (docs/performance.md).
 constexpr int kGreensFunctionFrom = 8'000;
 /// A chart that turns over less of itself is good enough.
-constexpr double kMostUnseen = 1e-5;
+constexpr double kMostUnseenOnDisk = 1e-5;
 /// The tolerance to which a surface is flattened for a chart, whose own discretisation error is far larger.
-constexpr double kFlattenTolerance = 1e-8;
+constexpr double kRoundTolerance = 1e-8;
 
 /// A point deep inside the flattened surface: the inner vertex where the solution of −Δψ = 1, ψ = 0 on the boundary, is
 /// largest; without inner vertices, the middle of the largest face.
@@ -141,7 +141,7 @@ class DiskMaps {
             w = *z;
         } else {
             FlattenOptions options;
-            options.tolerance = kFlattenTolerance;
+            options.tolerance = kRoundTolerance;
             const Flattening flat =
                 source_.metric ? flatten(source_.mesh, *source_.metric, options) : flatten(source_.mesh, options);
             w = flat.positions;
@@ -188,7 +188,7 @@ Chart compute_chart(const Surface& source, const BeltramiSolver* dirichlet, cons
     if (chart.excluded_faces > 0)
         if (Chart other = chart_by(ConjugateBy::system); other.excluded_faces < chart.excluded_faces)
             chart = std::move(other);
-    if (chart.excluded_faces > 0 && unseen_part(source, chart) > kMostUnseen)
+    if (chart.excluded_faces > 0 && unseen_part(source, chart) > kMostUnseenOnDisk)
         if (auto g = disk_map_by_vertex_source(source, &factorizations)) {
             centre_in_disk(*g, areas);
             if (Chart other = make_chart(source, std::move(*g), false);

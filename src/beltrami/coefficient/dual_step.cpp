@@ -42,7 +42,7 @@ constexpr double kFirstRate = 0.2;
 constexpr int kFlatRounds = 3;
 constexpr double kExact = 1e-11;
 /// Points that a thread takes at once.
-constexpr int kPoints = 512;
+constexpr int kDualPoints = 512;
 /// Columns of the Hessian's rows that a thread fills at once.
 constexpr int kHessianColumns = 8;
 
@@ -55,7 +55,7 @@ Eigen::VectorXcd combination(const Eigen::MatrixXcd& basis, const Eigen::VectorX
             const int count = last - first;
             phi.segment(first, count).noalias() = basis.middleRows(first, count) * c;
         },
-        kPoints);
+        kDualPoints);
     return phi;
 }
 
@@ -103,7 +103,7 @@ Eigen::VectorXcd dual_gradient(const Eigen::MatrixXcd& basis, const Eigen::Vecto
             const int count = last - first;
             return basis.middleRows(first, count).transpose() * directions.segment(first, count);
         },
-        kPoints);
+        kDualPoints);
 }
 
 double dilatation_of_pairing(double S) {

@@ -8,11 +8,11 @@ namespace beltrami {
 
 namespace {
 
-using Place = std::array<double, 2>;
+using ReferencePlace = std::array<double, 2>;
 
-constexpr int kGauss = 3;
-constexpr std::array<double, kGauss> kNodes{0.11270166537925831148, 0.5, 0.88729833462074168852};
-constexpr std::array<double, kGauss> kWeights{5.0 / 18, 8.0 / 18, 5.0 / 18};
+constexpr int kConicalPoints = 3;
+constexpr std::array<double, kConicalPoints> kConicalNodes{0.11270166537925831148, 0.5, 0.88729833462074168852};
+constexpr std::array<double, kConicalPoints> kConicalWeights{5.0 / 18, 8.0 / 18, 5.0 / 18};
 
 /// The symmetric rule of degree 4 with six points inside (Dunavant 1985): two kinds of points with two equal weights.
 constexpr std::array<std::array<double, 2>, 2> kSymmetric{
@@ -34,32 +34,35 @@ std::vector<char> faces_near(const FaceList& faces, int vertex_count, std::span<
 }
 
 /// The conical rule on a triangle in the coordinates of a face, its apex first.
-void add_rule(const std::array<Place, 3>& triangle, double part, std::vector<Place>& places,
+void add_rule(const std::array<ReferencePlace, 3>& triangle, double part, std::vector<ReferencePlace>& places,
               std::vector<double>& weights) {
-    for (int i = 0; i < kGauss; ++i)
-        for (int j = 0; j < kGauss; ++j) {
-            const std::array<double, 3> corner{1 - kNodes[i], kNodes[i] * (1 - kNodes[j]), kNodes[i] * kNodes[j]};
-            Place place{0, 0};
+    for (int i = 0; i < kConicalPoints; ++i)
+        for (int j = 0; j < kConicalPoints; ++j) {
+            const std::array<double, 3> corner{1 - kConicalNodes[i], kConicalNodes[i] * (1 - kConicalNodes[j]),
+                                               kConicalNodes[i] * kConicalNodes[j]};
+            ReferencePlace place{0, 0};
             for (int c = 0; c < 3; ++c)
                 for (int d = 0; d < 2; ++d) place[d] += corner[c] * triangle[c][d];
             places.push_back(place);
-            weights.push_back(2 * part * kNodes[i] * kWeights[i] * kWeights[j]);
+            weights.push_back(2 * part * kConicalNodes[i] * kConicalWeights[i] * kConicalWeights[j]);
         }
 }
 
 /// … and the one of degree 2 with three.
 constexpr double kThird = 1.0 / 6;
 
-void add_small_rule(std::vector<Place>& places, std::vector<double>& weights) {
-    for (const Place& place : {Place{kThird, kThird}, Place{1 - 2 * kThird, kThird}, Place{kThird, 1 - 2 * kThird}}) {
+void add_small_rule(std::vector<ReferencePlace>& places, std::vector<double>& weights) {
+    for (const ReferencePlace& place : {ReferencePlace{kThird, kThird}, ReferencePlace{1 - 2 * kThird, kThird},
+                                        ReferencePlace{kThird, 1 - 2 * kThird}}) {
         places.push_back(place);
         weights.push_back(1.0 / 3);
     }
 }
 
-void add_symmetric_rule(std::vector<Place>& places, std::vector<double>& weights) {
+void add_symmetric_rule(std::vector<ReferencePlace>& places, std::vector<double>& weights) {
     for (const auto& [side, weight] : kSymmetric)
-        for (const Place& place : {Place{side, side}, Place{1 - 2 * side, side}, Place{side, 1 - 2 * side}}) {
+        for (const ReferencePlace& place :
+             {ReferencePlace{side, side}, ReferencePlace{1 - 2 * side, side}, ReferencePlace{side, 1 - 2 * side}}) {
             places.push_back(place);
             weights.push_back(weight);
         }
@@ -67,18 +70,19 @@ void add_symmetric_rule(std::vector<Place>& places, std::vector<double>& weights
 
 /// A sample's part of its face as triangles with the apex first: the whole triangle, or the quarter of a quad at its
 /// corner q, halved from there.
-std::vector<std::array<Place, 3>> triangles_of(std::size_t degree, int q, int apex) {
-    constexpr std::array<Place, 3> whole{{{0, 0}, {1, 0}, {0, 1}}};
+std::vector<std::array<ReferencePlace, 3>> triangles_of(std::size_t degree, int q, int apex) {
+    constexpr std::array<ReferencePlace, 3> whole{{{0, 0}, {1, 0}, {0, 1}}};
     if (degree == 3) return {{whole[apex], whole[(apex + 1) % 3], whole[(apex + 2) % 3]}};
-    constexpr std::array<Place, 4> square{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+    constexpr std::array<ReferencePlace, 4> square{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
     const auto middle = [&](int a, int b) {
-        return Place{0.5 * (square[a][0] + square[b][0]), 0.5 * (square[a][1] + square[b][1])};
+        return ReferencePlace{0.5 * (square[a][0] + square[b][0]), 0.5 * (square[a][1] + square[b][1])};
     };
-    const Place corner = square[q], next = middle(q, (q + 1) % 4), centre{0.5, 0.5}, last = middle(q, (q + 3) % 4);
+    const ReferencePlace corner = square[q], next = middle(q, (q + 1) % 4), centre{0.5, 0.5},
+                         last = middle(q, (q + 3) % 4);
     return {{corner, next, centre}, {corner, centre, last}};
 }
 
-Complex position(const Chart& chart, int first_corner, std::size_t degree, const Place& place) {
+Complex position(const Chart& chart, int first_corner, std::size_t degree, const ReferencePlace& place) {
     const auto at = [&](int j) { return chart.corners[first_corner + j]; };
     const auto [x, y] = place;
     if (degree == 3) return at(0) + x * (at(1) - at(0)) + y * (at(2) - at(0));
@@ -104,7 +108,7 @@ SamplePoints conical_points(const Surface& source, const Chart& chart, std::span
             return std::find(landmarks.begin(), landmarks.end(), v) != landmarks.end();
         });
         const int apex = pole == corners.end() ? 0 : static_cast<int>(pole - corners.begin());
-        std::vector<Place> places;
+        std::vector<ReferencePlace> places;
         std::vector<double> weights;
         if (!near[face]) {
             add_small_rule(places, weights);

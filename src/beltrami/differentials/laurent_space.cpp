@@ -18,7 +18,7 @@ namespace beltrami {
 namespace {
 
 /// A power of which less than this part is new is left out.
-constexpr double kDependent = 1e-11;
+constexpr double kDependentLaurent = 1e-11;
 /// Cholesky factors orthonormalise columns of which so much is new.
 constexpr double kCholesky = 1e-5;
 /// Singular values below this are rounding.
@@ -33,7 +33,7 @@ constexpr double kFarImage = 3;
 constexpr int kReported = 6;
 /// Inverse iteration: further vectors in the block, steps, and the shift as part of the mean square.
 constexpr int kExtra = 8, kInverseSteps = 6;
-constexpr double kShift = 1e-13;
+constexpr double kLaurentShift = 1e-13;
 /// Powers are added beyond those that the fall of the residual so far asks for: as part of them, and in any case.
 constexpr double kMorePowers = 1.1;
 constexpr int kLeastMorePowers = 4;
@@ -150,7 +150,7 @@ std::vector<char> orthonormalise(Eigen::MatrixXcd& A, Eigen::MatrixXcd& R) {
     A = std::move(qr.Q);
     R = std::move(qr.R);
     for (Eigen::Index j = 0; j < n; ++j)
-        kept[static_cast<std::size_t>(j)] = std::abs(R(j, j)) > kDependent * lengths[j];
+        kept[static_cast<std::size_t>(j)] = std::abs(R(j, j)) > kDependentLaurent * lengths[j];
     return kept;
 }
 
@@ -164,7 +164,7 @@ struct Singular {
 Singular smallest_singular(const Eigen::MatrixXd& A, Eigen::Index count) {
     const Eigen::Index n = A.cols(), width = std::min(n, count + kExtra);
     Eigen::MatrixXd gram = gram_lower(A);
-    gram.diagonal().array() += kShift * gram.trace() / static_cast<double>(n);
+    gram.diagonal().array() += kLaurentShift * gram.trace() / static_cast<double>(n);
     const Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> factor(gram);
     // Any start that is regular will do.
     Eigen::MatrixXd block(n, width);

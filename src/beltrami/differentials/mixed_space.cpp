@@ -15,7 +15,7 @@ namespace beltrami {
 namespace {
 
 /// A function of which less than this part is new is left out.
-constexpr double kDependent = 1e-6;
+constexpr double kDependentMixed = 1e-6;
 /// Singular values up to this belong to the space where the condition changes along a loop. They rise from rounding
 /// ever faster to a quarter and more within five or so: what is left out is what the next degree describes better.
 constexpr double kCut = 0.03;
@@ -23,14 +23,14 @@ constexpr double kCut = 0.03;
 /// (coefficients of 1e10 at 18, 1e14 at 27), at 18 differentials known in closed form are met to 1e-8.
 constexpr int kLargestBranched = 20;
 /// Where their number is known the space is of use up to this residual …
-constexpr double kLargestResidual = 1e-3, kLeastGap = 30;
+constexpr double kLargestMixedResidual = 1e-3, kLeastMixedGap = 30;
 /// … and loops that slide have more powers, up to so many, until it is below that.
 constexpr double kWantedResidual = 1e-7;
-constexpr int kMorePowers = 12, kMostPowers = 120;
+constexpr int kMoreMixedPowers = 12, kMostPowers = 120;
 /// New directions of a larger space: what is left of them without the smaller one.
 constexpr double kNew = 0.3;
 /// Mirror images of poles so many radii away or further are left to the powers.
-constexpr double kFarImage = 3;
+constexpr double kFarMixedImage = 3;
 
 }  // namespace
 
@@ -54,8 +54,8 @@ std::shared_ptr<const MixedSpace::Family> MixedSpace::family(MixedDomain domain,
 }
 
 MixedSpace::MixedSpace(MixedDomain domain, int degree, int largest_degree, const std::vector<int>& largest_powers) {
-    int resolving = largest_degree + kMorePowers;
-    for (const int power : largest_powers) resolving = std::max(resolving, power + kMorePowers);
+    int resolving = largest_degree + kMoreMixedPowers;
+    for (const int power : largest_powers) resolving = std::max(resolving, power + kMoreMixedPowers);
     const bool slides = std::any_of(domain.loops.begin(), domain.loops.end(),
                                     [](const MixedDomain::Loop& loop) { return !loop.prescribed(); });
     for (;; resolving = std::min(2 * resolving, kMostPowers)) {
@@ -100,7 +100,8 @@ std::vector<MixedSpace::Function> MixedSpace::functions_up_to(int degree, int po
             for (int l = 0; l < static_cast<int>(domain.loops.size()); ++l) {
                 const MixedDomain::Loop& loop = domain.loops[l];
                 const double ratio = std::abs(p - loop.centre) / loop.radius;
-                if (l == own_loop || loop.prescribed() || ratio > kFarImage || ratio * kFarImage < 1) continue;
+                if (l == own_loop || loop.prescribed() || ratio > kFarMixedImage || ratio * kFarMixedImage < 1)
+                    continue;
                 const Complex image = loop.centre + loop.radius * loop.radius / std::conj(p - loop.centre);
                 more.push_back({-1, 1, 0, image, std::abs(std::abs(image - loop.centre) - loop.radius)});
             }
@@ -168,7 +169,7 @@ void MixedSpace::orthonormalise(const std::vector<Function>& more) {
         lengths_[old_functions + j] = length;
         Eigen::VectorXcd v = given.col(j) / length, in_functions = Eigen::VectorXcd::Zero(T.rows());
         in_functions[old_functions + j] = 1 / length;
-        detail::append_orthonormal(std::move(v), std::move(in_functions), kDependent, Q, T, size);
+        detail::append_orthonormal(std::move(v), std::move(in_functions), kDependentMixed, Q, T, size);
     }
     orthonormal_ = Q.leftCols(size);
     triangle_ = T.leftCols(size);
@@ -261,7 +262,7 @@ bool MixedSpace::raise(int degree, int power) {
     combinations.imag() = space_.bottomRows(n);
     coefficients_ = triangle_ * combinations;
     measure();
-    return known < 0 || (fit_.residual < kLargestResidual && fit_.next > kLeastGap * fit_.residual);
+    return known < 0 || (fit_.residual < kLargestMixedResidual && fit_.next > kLeastMixedGap * fit_.residual);
 }
 
 /// The residual on points between those of the fit.

@@ -12,9 +12,9 @@ namespace {
 
 constexpr int kFirstDegree = 8, kFirstPower = 4;
 /// A function of which less than this part is new is left out.
-constexpr double kDependent = 1e-4;
+constexpr double kDependentRational = 1e-4;
 /// Points worked through at a time where densities are.
-constexpr int kPointsPerChunk = 512;
+constexpr int kPointsPerRationalChunk = 512;
 
 }  // namespace
 
@@ -120,7 +120,7 @@ void RationalSpace::add(const std::vector<Generator>& more) {
             }
             const Eigen::VectorXcd along = inverse.topLeftCorner(j, count).adjoint() * gram.col(j).head(j);
             const double square = gram(j, j).real() - along.squaredNorm();
-            if (!(square > kDependent * kDependent * gram(j, j).real())) continue;
+            if (!(square > kDependentRational * kDependentRational * gram(j, j).real())) continue;
             inverse.col(count) = -(inverse.leftCols(count) * along);
             inverse(j, count) += 1;
             inverse.col(count++) /= std::sqrt(square);
@@ -166,7 +166,7 @@ Eigen::MatrixXcd RationalSpace::with_densities(const Eigen::MatrixXcd& of_poles,
                     weights * densities.densities().col(f.density);
             }
         },
-        kPointsPerChunk);
+        kPointsPerRationalChunk);
     return values;
 }
 
@@ -190,7 +190,7 @@ Eigen::VectorXcd RationalSpace::combination(const ChartPoints& points, const Eig
                     phi.segment(begin, count) +=
                         family_->curves[j].integral(points.positions.segment(begin, count), jumps[j]);
             },
-            kPointsPerChunk);
+            kPointsPerRationalChunk);
     return phi.cwiseProduct(points.derivatives.cwiseProduct(points.derivatives));
 }
 

@@ -15,7 +15,7 @@ namespace beltrami {
 namespace {
 
 /// A function of which less than this part is new is left out.
-constexpr double kDependent = 1e-7;
+constexpr double kDependentSlit = 1e-7;
 /// Least power of J, and the largest of those that a simple pole or less at ∞ needs: of the first slit these cancel the
 /// tails of all others.
 constexpr int kLeastPower = -1, kLargestTail = 1;
@@ -222,7 +222,7 @@ void SlitSpace::raise(int degree) {
         const double length = v.norm();
         v /= length;
         in_functions /= length;
-        detail::append_orthonormal(std::move(v), std::move(in_functions), kDependent, Q, T, size);
+        detail::append_orthonormal(std::move(v), std::move(in_functions), kDependentSlit, Q, T, size);
     }
     orthonormal_ = Q.leftCols(size);
     coefficients_ = T.leftCols(size).cast<Complex>();

@@ -11,7 +11,7 @@ namespace {
 /// Rows worked through together: their results stay in the first cache.
 constexpr int kRows = 512;
 /// Rows of a thread's chunk.
-constexpr int kGrain = 4 * kRows;
+constexpr int kSplitGrain = 4 * kRows;
 
 Eigen::VectorXcd product(const Eigen::MatrixXd& re_part, const Eigen::MatrixXd& im_part, const Eigen::VectorXcd& c) {
     const Eigen::Index rows = re_part.rows(), cols = re_part.cols();
@@ -38,7 +38,7 @@ Eigen::VectorXcd product(const Eigen::MatrixXd& re_part, const Eigen::MatrixXd& 
                 result.segment(first, count).imag() = im.head(count).matrix();
             }
         },
-        kGrain);
+        kSplitGrain);
     return result;
 }
 
@@ -66,7 +66,7 @@ Eigen::MatrixXcd transposed_product(const Eigen::MatrixXd& re_part, const Eigen:
             }
             return sum;
         },
-        kGrain);
+        kSplitGrain);
 }
 
 }  // namespace

@@ -20,11 +20,11 @@ namespace beltrami {
 namespace {
 
 /// What is this near to the boundary, as part of the edge there, lies on it.
-constexpr double kRim = 0.25;
+constexpr double kRimOfZeros = 0.25;
 /// What is this near to each other, as part of an edge, is one.
 constexpr double kSamePoint = 0.02;
 /// Points that are evaluated at once.
-constexpr int kPointsPerChunk = 1024;
+constexpr int kPointsPerZeroChunk = 1024;
 
 /// A triangle of a face, in the order in which MeshPoint names its corners.
 struct FaceTriangle {
@@ -112,7 +112,7 @@ class PlaneOfDifferential {
                 }
                 result.segment(first, last - first) = phi_.at(at);
             },
-            kPointsPerChunk);
+            kPointsPerZeroChunk);
         return result;
     }
 
@@ -156,7 +156,7 @@ class PlaneOfDifferential {
                 // Faces are on the left.
                 const Complex along = in / std::abs(in) + out / std::abs(out);
                 const Complex outward = Complex(0, -1) * (std::abs(along) > 0 ? along / std::abs(along) : in);
-                points.push_back(at + kRim * std::min(std::abs(in), std::abs(out)) * outward);
+                points.push_back(at + kRimOfZeros * std::min(std::abs(in), std::abs(out)) * outward);
             }
             for (std::size_t i = 0; i < n; ++i) {
                 const int a = loop[i], b = loop[(i + 1) % n], over_a = first + static_cast<int>(i),
@@ -183,7 +183,7 @@ class PlaneOfDifferential {
             along = t;
             nearest = &edge;
         }
-        if (nearest && (outside || least <= kRim)) {
+        if (nearest && (outside || least <= kRimOfZeros)) {
             const FaceTriangle& beside = beside_.at({nearest->from, nearest->to});
             MeshPoint point{beside.face, beside.vertices, {0, 0, 0}};
             for (int j = 0; j < 3; ++j) {

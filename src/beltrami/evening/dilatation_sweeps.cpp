@@ -10,10 +10,10 @@ namespace beltrami {
 namespace {
 
 /// Added to the diagonal of the 2×2 system, as a part of its trace.
-constexpr double kShift = 1e-3;
+constexpr double kSweepShift = 1e-3;
 /// Lengths of the step that are tried: 1, .35, .35² …
 constexpr double kShorten = 0.35;
-constexpr int kTrials = 4;
+constexpr int kSweepTrials = 4;
 /// Vertices a thread takes at once.
 constexpr int kGrain = 256;
 
@@ -80,13 +80,13 @@ void DilatationSweeps::run(DilatationSpread& spread, Eigen::VectorXcd& f, int sw
             before.energy += s.weight * t.r * t.r * (1 + r2) + s.anchor * (x * x + y * y);
             before.flipped += s.p_re * s.p_re + s.p_im * s.p_im <= s.q_re * s.q_re + s.q_im * s.q_im;
         }
-        const double shift = kShift * (xx + yy);
+        const double shift = kSweepShift * (xx + yy);
         xx += shift;
         yy += shift;
         const double determinant = xx * yy - xy * xy;
         if (!(determinant > 0)) return;
         double dx = -(yy * gx - xy * gy) / determinant, dy = -(xx * gy - xy * gx) / determinant;
-        for (int trial = 0; trial < kTrials; ++trial, dx *= kShorten, dy *= kShorten) {
+        for (int trial = 0; trial < kSweepTrials; ++trial, dx *= kShorten, dy *= kShorten) {
             DilatationSpread::Value there;
             for (const Incidence* e = begin; e != end; ++e) {
                 const SpreadSample& s = samples[e->sample];

@@ -46,10 +46,10 @@ constexpr Stage kLastStage{3, 400, false, 0};
 /// Samples whose derivatives are found before they are added up.
 constexpr int kSamplesAtOnce = 1024;
 /// A stage in which E moves by less than this part of it is followed by the last one.
-constexpr double kSettled = 0.02;
+constexpr double kSettledEvening = 0.02;
 /// Rings around outliers, round by round.
 constexpr int kRings[] = {3, 4, 5, 6};
-constexpr int kExpectedFactorizations = 3;
+constexpr int kExpectedEveningFactorizations = 3;
 /// A Gauss-Newton step is halved at most so often.
 constexpr int kHalvings = 5;
 
@@ -113,7 +113,7 @@ class Evening {
     std::future<std::unique_ptr<CoupledSystem>> prepare(int steps) const {
         const bool beside = steps > 0 && thread_count() > 1;
         return std::async(beside ? std::launch::async : std::launch::deferred, [this] {
-            return std::make_unique<CoupledSystem>(operators_, freedoms_, kExpectedFactorizations);
+            return std::make_unique<CoupledSystem>(operators_, freedoms_, kExpectedEveningFactorizations);
         });
     }
 
@@ -191,7 +191,7 @@ EvenDilatation even_dilatation(const Surface& source, const std::vector<Freedom>
         if (s.damping > 0) evening.gauss_newton(f, s.damping);
         watch();
         report();
-        return most <= (1 + kSettled) * least;
+        return most <= (1 + kSettledEvening) * least;
     };
     for (const Stage& of_step : stages_of(options.steps))
         if (run(of_step)) break;

@@ -23,14 +23,14 @@ namespace beltrami {
 
 namespace {
 
-constexpr double kLongestMotion = 0.2;  // of the image's diameter
-constexpr double kWhole = 0.4;          // step length from which a small decrease means that the energy has settled
+constexpr double kLongestFlowMotion = 0.2;  // of the image's diameter
+constexpr double kWhole = 0.4;              // step length from which a small decrease means that the energy has settled
 constexpr double kLongStep = 0.2, kMuchLess = 0.9;  // of perturbations that are gone on with, and of the error
 constexpr double kHeldUp = 1e-3;                    // step length below which residual steps have come to an end
-constexpr int kMostHeldUp = 4;                      // steps in a row that are none, each damped more
+constexpr int kMostHeldUpSteps = 4;                 // steps in a row that are none, each damped more
 constexpr int kIdleSteps = 8;                       // that together lower the energy by less than one has to
 /// A step below this part of the image's size that lowers nothing is rounding: the energy is flat there.
-constexpr double kRounding = 1e-6;
+constexpr double kRoundingOfSteps = 1e-6;
 
 /// The step that is to be taken next where the scheme is automatic. While faces are flipped: residual steps, and when
 /// these have come to an end perturbations. Then, towards a coefficient, perturbations as long as they are long and
@@ -121,7 +121,7 @@ class Flow {
     }
 
     TargetStep::Taken take(TargetEnergy& energy, FlowScheme scheme, const Eigen::VectorXcd& mu) {
-        const TargetStep::Taken taken = step_.step(energy, result_.map, kLongestMotion * size_);
+        const TargetStep::Taken taken = step_.step(energy, result_.map, kLongestFlowMotion * size_);
         ++result_.iterations;
         if (motion_.unheld() && taken.length > 0) centre();
         flips_ = flipped_samples(source_.operators, result_.map);
@@ -159,8 +159,8 @@ class Flow {
 
     End end_after(const TargetEnergy& energy, const TargetStep::Taken& taken) const {
         if (taken.length == 0) {
-            if (taken.wanted < kRounding * size_) return End::settled;
-            return energy.descends() && flips_ == 0 && held_up_ < kMostHeldUp ? End::none : End::held_up;
+            if (taken.wanted < kRoundingOfSteps * size_) return End::settled;
+            return energy.descends() && flips_ == 0 && held_up_ < kMostHeldUpSteps ? End::none : End::held_up;
         }
         if (flips_ > 0 && energy.descends() && taken.length < kHeldUp) return End::held_up;
         const bool whole = taken.length >= kWhole && !taken.damped;

@@ -47,7 +47,7 @@ struct Element {
 
 enum class Encoding { ascii, little_endian, big_endian };
 
-struct Header {
+struct PlyHeader {
     Encoding encoding = Encoding::ascii;
     std::vector<Element> elements;
     std::vector<std::string> comments;
@@ -108,9 +108,9 @@ Property read_property(TextScanner& scanner) {
 }
 
 /// Reads up to and with "end_header"; the scanner then stands right behind this word.
-Header read_header(TextScanner& scanner) {
+PlyHeader read_ply_header(TextScanner& scanner) {
     if (!scanner.next_line() || scanner.word() != "ply") scanner.fail("the file does not begin with 'ply'");
-    Header header;
+    PlyHeader header;
     bool has_format = false;
     std::set<std::string, std::less<>> names;
     while (scanner.next_line()) {
@@ -370,7 +370,7 @@ void read_faces(Body& body, const Element& element, std::int64_t vertex_count, b
 }
 
 template <class Body>
-LoadedMesh read_body(Body body, const Header& header, const std::string& name, LargeFaces large_faces) {
+LoadedMesh read_body(Body body, const PlyHeader& header, const std::string& name, LargeFaces large_faces) {
     const Element* vertices = header.find("vertex");
     if (!vertices || !vertices->find("x") || !vertices->find("y")) body.fail("the vertices have no properties x and y");
     check_count(body, *vertices);
@@ -400,7 +400,7 @@ LoadedMesh read_ply(std::string_view bytes, const std::string& name) {
 
 LoadedMesh read_ply(std::string_view bytes, const std::string& name, LargeFaces large_faces) {
     TextScanner scanner(bytes, name);
-    const Header header = read_header(scanner);
+    const PlyHeader header = read_ply_header(scanner);
     if (header.encoding == Encoding::ascii) return read_body(TextBody(scanner), header, name, large_faces);
 
     // Behind "end_header" the first newline belongs to the header. CR LF is one unless the first line ends with CR

@@ -44,6 +44,8 @@ Eigen::RowVectorXd columnwise(const Vectors& x, const Vectors& y) {
         });
 }
 
+}  // namespace
+
 /// The pattern of a whole symmetric matrix by rows, and where the lower triangle has the values: products then write
 /// each row by itself.
 class WholePattern {
@@ -96,8 +98,6 @@ class WholePattern {
     std::vector<int> begins_;
     std::vector<Entry> entries_;
 };
-
-}  // namespace
 
 struct SymmetricSolver::Backend {
     Matrix lower;

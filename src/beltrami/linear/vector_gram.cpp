@@ -15,8 +15,8 @@ namespace beltrami::detail {
 
 namespace {
 
-constexpr int kLanes = 8;
-using Lanes = double __attribute__((vector_size(8 * kLanes)));
+constexpr int kGramLanes = 8;
+using GramLanes = double __attribute__((vector_size(8 * kGramLanes)));
 
 /// Columns against columns whose products are summed side by side: 16 sums fit the registers.
 constexpr int kTile = 4;
@@ -30,10 +30,10 @@ using Columns = std::array<const double*, kTile>;
 /// Products of every column of one tile with every column of another.
 BELTRAMI_EIGHT_DOUBLES
 void multiply_tiles(const Columns& a, const Columns& b, int rows, double* products) {
-    Lanes sums[kTile][kTile] = {};
+    GramLanes sums[kTile][kTile] = {};
     int row = 0;
-    for (; row + kLanes <= rows; row += kLanes) {
-        Lanes x[kTile], y[kTile];
+    for (; row + kGramLanes <= rows; row += kGramLanes) {
+        GramLanes x[kTile], y[kTile];
         for (int i = 0; i < kTile; ++i) {
             __builtin_memcpy(&x[i], a[i] + row, sizeof x[i]);
             __builtin_memcpy(&y[i], b[i] + row, sizeof y[i]);
@@ -44,7 +44,7 @@ void multiply_tiles(const Columns& a, const Columns& b, int rows, double* produc
     for (int i = 0; i < kTile; ++i)
         for (int j = 0; j < kTile; ++j) {
             double sum = 0;
-            for (int l = 0; l < kLanes; ++l) sum += sums[i][j][l];
+            for (int l = 0; l < kGramLanes; ++l) sum += sums[i][j][l];
             for (int rest = row; rest < rows; ++rest) sum += a[i][rest] * b[j][rest];
             products[kTile * i + j] = sum;
         }

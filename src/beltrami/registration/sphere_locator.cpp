@@ -12,7 +12,7 @@ namespace beltrami {
 
 namespace {
 
-constexpr int kMostSteps = 500;
+constexpr int kMostLocatorSteps = 500;
 constexpr double kOutside = -1e-12;
 
 std::vector<std::array<int, 3>> neighbours(const std::vector<std::array<int, 3>>& triangles) {
@@ -52,7 +52,7 @@ std::array<double, 3> SphereLocator::weights(int triangle, const Eigen::Vector3d
 int SphereLocator::walk(int triangle, const Eigen::Vector3d& point) const {
     int best = triangle;
     double most = -2;
-    for (int step = 0; step < kMostSteps && triangle >= 0; ++step) {
+    for (int step = 0; step < kMostLocatorSteps && triangle >= 0; ++step) {
         const std::array<double, 3> w = weights(triangle, point);
         const int lowest = static_cast<int>(std::min_element(w.begin(), w.end()) - w.begin());
         if (w[lowest] > most) most = w[lowest], best = triangle;

@@ -14,8 +14,8 @@ namespace beltrami {
 
 namespace {
 
-constexpr double kLimbPart = 1e-3;  // of the area, around a vertex
-constexpr int kMostSteps = 1000;    // of a way
+constexpr double kLimbPart = 1e-3;   // of the area, around a vertex
+constexpr int kMostWaySteps = 1000;  // of a way
 
 }  // namespace
 
@@ -25,11 +25,11 @@ std::vector<std::vector<std::optional<MeshPoint>>> stops_of(std::span<const Surf
     for (const SurfaceWaypoint& waypoint : waypoints) {
         const auto landmark = std::find_if(landmarks.begin(), landmarks.end(),
                                            [&](const SurfaceLandmark& l) { return l.vertex == waypoint.vertex; });
-        if (waypoint.step < 1 || waypoint.step > kMostSteps || landmark == landmarks.end())
+        if (waypoint.step < 1 || waypoint.step > kMostWaySteps || landmark == landmarks.end())
             throw Error(Cause::bad_option,
                         "a waypoint of vertex " + std::to_string(waypoint.vertex) + " at step " +
                             std::to_string(waypoint.step) + " is impossible",
-                        "waypoints belong to landmarks and to steps from 1 to " + std::to_string(kMostSteps));
+                        "waypoints belong to landmarks and to steps from 1 to " + std::to_string(kMostWaySteps));
         while (static_cast<int>(result.size()) < waypoint.step) result.emplace_back(landmarks.size());
         result[waypoint.step - 1][landmark - landmarks.begin()] = waypoint.place;
     }

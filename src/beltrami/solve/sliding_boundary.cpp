@@ -13,7 +13,7 @@ namespace beltrami {
 namespace {
 
 /// A step leaves at least this part of an increment, and never less than that part of what the source's edge has.
-constexpr double kLeastPart = 0.1, kFloor = 1e-3;
+constexpr double kLeastPart = 0.1, kFloorOfGaps = 1e-3;
 /// Where no vertex of a loop is held, nor less than this part of what its length gives it among so many on either side;
 /// next to held vertices increments may fall as fast as they like.
 constexpr double kLeastOfNeighbours = 0.3;
@@ -112,7 +112,7 @@ SlidingBoundary::SlidingBoundary(const Surface& source, std::vector<SlidingLoop>
         const auto& lengths = source.boundary_edge_lengths[l.loop];
         double whole = 0;
         for (const double length : lengths) whole += length;
-        for (const double length : lengths) rim.floors.push_back(kFloor * l.curve.length() * length / whole);
+        for (const double length : lengths) rim.floors.push_back(kFloorOfGaps * l.curve.length() * length / whole);
         rim.corners = l.curve.corners(kSharp);
         rim.stuck.assign(n, 0);
         rim.base.assign(n, 0.0);

@@ -11,8 +11,8 @@ namespace beltrami {
 
 namespace {
 
-constexpr double kQuantile = 0.9;  // of ψ: its unit for p > 2
-constexpr double kFloor = 0.02;    // of p = 2 beside p > 2
+constexpr double kQuantile = 0.9;         // of ψ: its unit for p > 2
+constexpr double kFloorOfSquares = 0.02;  // of p = 2 beside p > 2
 
 std::vector<double> of_unit_sum(std::vector<double> weights) {
     const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
@@ -69,7 +69,7 @@ BarrierEnergy::Distance BarrierEnergy::distance(const ImageFrame& frame, int sam
 double BarrierEnergy::value(const ImageFrame& frame, int sample) const {
     const double psi = distance(frame, sample).psi;
     if (!std::isfinite(psi) || power_ == 2) return weights_[sample] * psi;
-    return weights_[sample] * (std::pow(psi / unit_, 0.5 * power_) + kFloor * psi / unit_);
+    return weights_[sample] * (std::pow(psi / unit_, 0.5 * power_) + kFloorOfSquares * psi / unit_);
 }
 
 SampleTerm BarrierEnergy::term(const ImageFrame& frame, int sample) const {
@@ -79,7 +79,7 @@ SampleTerm BarrierEnergy::term(const ImageFrame& frame, int sample) const {
     if (d > 1e-14) factor *= std::conj(at.quotient) / d;
     double slope = 1, bend = 1;  // of ψ^{p/2} by ψ; its second derivative along the gradient, relatively
     if (power_ > 2) {
-        slope = (0.5 * power_ * std::pow(at.psi / unit_, 0.5 * power_ - 1) + kFloor) / unit_;
+        slope = (0.5 * power_ * std::pow(at.psi / unit_, 0.5 * power_ - 1) + kFloorOfSquares) / unit_;
         bend = power_ - 1;
     }
     const double weight = slope * weights_[sample] / rest;

@@ -15,11 +15,11 @@ namespace beltrami {
 
 namespace {
 
-constexpr int kExpectedFactorizations = 20;
-constexpr double kShortest = 1e-6;  // step length below which no step is taken
-constexpr double kShift = 1e-9, kLargestShift = 1e-3;
+constexpr int kExpectedTargetFactorizations = 20;
+constexpr double kShortestTargetStep = 1e-6;  // step length below which no step is taken
+constexpr double kTargetShift = 1e-9, kLargestTargetShift = 1e-3;
 constexpr double kHeldUpDamping = 1, kHeldUpFactor = 100;  // where no step is possible at all
-constexpr double kNoticeable = 1e-2;
+constexpr double kNoticeableTargetDrift = 1e-2;
 constexpr double kStiffening = 100, kSlackening = 4;  // of samples, at most in one step, and from step to step
 constexpr double kStiff = 1.5;                        // by which stiffness a step counts as damped
 constexpr double kBlocked = 0.05;                 // step length below which vertices of faces that would flip are held
@@ -34,7 +34,7 @@ ElementSystem system_of(const Operators& operators, const std::vector<int>& plac
     nodes.reserve(operators.vertices.size());
     for (const int v : operators.vertices) nodes.push_back(place[v]);
     const int count = place.empty() ? 0 : *std::max_element(place.begin(), place.end()) + 1;
-    return {operators.offsets, std::move(nodes), count, kExpectedFactorizations, 2};
+    return {operators.offsets, std::move(nodes), count, kExpectedTargetFactorizations, 2};
 }
 
 }  // namespace
@@ -105,7 +105,7 @@ std::optional<Positions> TargetStep::direction(const TargetEnergy& energy, const
         ways.push_back(way);
     }
     Eigen::VectorXd solution;
-    for (double shift = kShift;; shift *= 100) {
+    for (double shift = kTargetShift;; shift *= 100) {
         assemble(energy, map, ways);
         for (std::size_t v = 0; v < place_.size(); ++v)
             if (const double hold = hold_[static_cast<Eigen::Index>(v)]; hold > 0 && place_[v] >= 0)
@@ -118,7 +118,7 @@ std::optional<Positions> TargetStep::direction(const TargetEnergy& energy, const
             break;
         } catch (const Error& error) {
             if (error.cause() != Cause::not_solved) throw;
-            if (shift >= kLargestShift) return {};
+            if (shift >= kLargestTargetShift) return {};
         }
     }
     Positions motion = motion_along(place_, ways, solution);
@@ -142,7 +142,7 @@ TargetStep::Taken TargetStep::step(TargetEnergy& energy, TargetMap& map, double 
     double length = whole;
     int rests = 0;
     TargetMap trial, rejected;
-    while (length > kShortest) {
+    while (length > kShortestTargetStep) {
         trial = motion_.moved(map, *motion, length);
         const Height after = height(energy, trial);
         const bool lower = !energy.descends() || after.energy < before.energy;
@@ -161,7 +161,7 @@ TargetStep::Taken TargetStep::step(TargetEnergy& energy, TargetMap& map, double 
         taken.movement = length * motion->rowwise().norm().maxCoeff();
         taken.energy = after.energy;
         taken.fallen = before.energy > 0 ? 1 - after.energy / before.energy : 0;
-        taken.damped = damping_ > kNoticeable || stiffness_.maxCoeff() > kStiff || drags();
+        taken.damped = damping_ > kNoticeableTargetDrift || stiffness_.maxCoeff() > kStiff || drags();
         break;
     }
     if (!energy.descends()) return taken;
@@ -171,7 +171,7 @@ TargetStep::Taken TargetStep::step(TargetEnergy& energy, TargetMap& map, double 
     }
     const TargetMap& from = taken.length > 0 ? trial : map;
     stiffness_ = (stiffness_ / kSlackening).cwiseMax(1);
-    hold_ = (hold_.array() < kNoticeable).select(0, hold_ / kSlackening);
+    hold_ = (hold_.array() < kNoticeableTargetDrift).select(0, hold_ / kSlackening);
     damp(taken.length > 0 ? 1 : 0);  // what shorter steps would add to it stiffness adds to samples alone
     if (taken.length <= kNearlyFull) stiffen(energy, from, *motion);
     if (taken.length < kBlocked && !rejected.points.empty()) hold_flipped(from, rejected);
@@ -240,7 +240,7 @@ bool TargetStep::put_to_rest(const TargetEnergy& energy, const TargetMap& from, 
 
 /// Whether vertices are held that do move. Those at rest stand where the next step would flip a face.
 bool TargetStep::drags() const {
-    return (hold_.array() > kNoticeable && hold_.array() < kAtRest).any();
+    return (hold_.array() > kNoticeableTargetDrift && hold_.array() < kAtRest).any();
 }
 
 void TargetStep::damp(double length) {

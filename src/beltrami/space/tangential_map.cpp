@@ -19,9 +19,9 @@ namespace beltrami {
 
 namespace {
 
-constexpr int kExpectedFactorizations = 40;
+constexpr int kExpectedTangentialFactorizations = 40;
 constexpr int kMostHalvings = 20;  // of a step, then none is taken
-constexpr double kShift = 1e-10, kLargestShift = 1e-4;
+constexpr double kTangentialShift = 1e-10, kLargestTangentialShift = 1e-4;
 constexpr double kUndamped = 1e-2;  // below it a small step says that the end is near
 constexpr int kFutileSteps = 5;     // in a row, with more damping each
 constexpr double kCusp = 0.2;       // cosine of a face's normal and the target's
@@ -56,7 +56,7 @@ ElementSystem system_of(const Operators& operators, const std::vector<int>& plac
         offsets.push_back(static_cast<int>(nodes.size()));
     }
     const int count = place.empty() ? 0 : *std::max_element(place.begin(), place.end()) + 1;
-    return {std::move(offsets), std::move(nodes), count, kExpectedFactorizations, 2};
+    return {std::move(offsets), std::move(nodes), count, kExpectedTangentialFactorizations, 2};
 }
 
 std::vector<double> of_unit_sum(std::vector<double> weights) {
@@ -306,10 +306,10 @@ Positions TangentialMap::direction(const BarrierEnergy& energy) {
     ways.reserve(place_.size());
     for (std::size_t v = 0; v < place_.size(); ++v) ways.push_back(motion_.directions(static_cast<int>(v), map_));
     Eigen::VectorXd solution;
-    double shift = kShift;
+    double shift = kTangentialShift;
     for (bool solved = false; !solved; shift *= 100) {
         assemble(energy, ways);
-        const bool last = shift >= kLargestShift;
+        const bool last = shift >= kLargestTangentialShift;
         system_.scale_diagonal(1 + shift);
         try {
             system_.factorize();

@@ -13,7 +13,7 @@ namespace beltrami {
 
 namespace {
 
-constexpr int kMostSteps = 200;
+constexpr int kMostFitSteps = 200;
 constexpr double kFirstDamping = 1e-3, kLeastDamping = 1e-12, kMostDamping = 1e12, kFactor = 4;
 constexpr double kReached = 1e-30, kSettled = 1e-13;
 constexpr double kLongest = 0.5;  // shift in a step, of the ball's radius; also radians
@@ -64,7 +64,7 @@ Positions moebius_fitted(Positions points, std::span<const int> landmarks, const
     points *= best_rotation(rows_of(points, landmarks), wanted).transpose();
     Positions at = rows_of(points, landmarks);
     double sum = (at - wanted).squaredNorm(), damping = kFirstDamping;
-    for (int step = 0; step < kMostSteps && sum > kReached && damping < kMostDamping; ++step) {
+    for (int step = 0; step < kMostFitSteps && sum > kReached && damping < kMostDamping; ++step) {
         Matrix6 matrix;
         Vector6 right;
         normal_equations(at, wanted, matrix, right);

@@ -7,7 +7,7 @@ namespace beltrami {
 namespace {
 
 constexpr int kMostSteps = 50;
-constexpr double kSettled = 1e-14;  // step, relative to the distance from the origin
+constexpr double kSettledOnLevel = 1e-14;  // step, relative to the distance from the origin
 
 }  // namespace
 
@@ -18,7 +18,7 @@ Target::Point ImplicitTarget::onto(Eigen::Vector3d point) const {
         if (!change.allFinite()) break;
         point += change;
         jet = function_(point);
-        if (change.norm() <= kSettled * (1 + point.norm())) break;
+        if (change.norm() <= kSettledOnLevel * (1 + point.norm())) break;
     }
     Point result;
     result.position = point;
@@ -31,7 +31,7 @@ Target::Point ImplicitTarget::nearest(const Eigen::Vector3d& point) const {
     for (int step = 0; step < kMostSteps; ++step) {
         const Eigen::Vector3d left = point - best.position;
         const Eigen::Vector3d change = left - left.dot(best.normal) * best.normal;
-        if (change.norm() <= kSettled * (1 + point.norm())) break;
+        if (change.norm() <= kSettledOnLevel * (1 + point.norm())) break;
         const Point next = onto(best.position + change);
         if (!((next.position - point).norm() < left.norm())) break;
         best = next;

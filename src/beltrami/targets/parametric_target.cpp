@@ -14,8 +14,8 @@ namespace beltrami {
 namespace {
 
 constexpr int kGrid = 48;  // places along each parameter
-constexpr int kMostSteps = 60;
-constexpr double kSettled = 1e-14;  // step in the parameters, relative to their ranges
+constexpr int kMostParameterSteps = 60;
+constexpr double kSettledParameters = 1e-14;  // step in the parameters, relative to their ranges
 
 double into(const ParametricTarget::Range& range, double t) {
     if (!range.periodic) return std::clamp(t, range.first, range.last);
@@ -71,7 +71,7 @@ Target::Point ParametricTarget::nearest(const Eigen::Vector3d& point) const {
 Target::Point ParametricTarget::retract(const Eigen::Vector3d& moved, const Point& from) const {
     Point best = from;
     double distance = (best.position - moved).squaredNorm();
-    for (int step = 0; step < kMostSteps; ++step) {
+    for (int step = 0; step < kMostParameterSteps; ++step) {
         const Jet jet = function_(best.parameters.x(), best.parameters.y());
         const Eigen::Vector3d left = moved - best.position;
         Eigen::Matrix2d normal;
@@ -80,7 +80,7 @@ Target::Point ParametricTarget::retract(const Eigen::Vector3d& moved, const Poin
         const double size =
             std::max(std::abs(change.x()) / (u_.last - u_.first), std::abs(change.y()) / (v_.last - v_.first));
         bool lower = false;
-        for (double length = 1; length * size > kSettled && !lower; length *= 0.5) {
+        for (double length = 1; length * size > kSettledParameters && !lower; length *= 0.5) {
             const Point trial =
                 at(best.parameters.x() + length * change.x(), best.parameters.y() + length * change.y());
             const double there = (trial.position - moved).squaredNorm();

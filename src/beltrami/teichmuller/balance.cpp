@@ -9,7 +9,7 @@ namespace beltrami {
 namespace {
 
 constexpr int kMostMoves = 25, kMostHalvings = 6;
-constexpr double kDescent = 1e-4, kSettled = 1e-5, kFlat = 1e-12;
+constexpr double kDescent = 1e-4, kSettledBalance = 1e-5, kFlat = 1e-12;
 
 }  // namespace
 
@@ -23,7 +23,7 @@ int balance(Balanced& it, Eigen::MatrixXd hessian, double longest, int group) {
         for (Eigen::Index i = 0; i < step.size(); i += group) size = std::max(size, step.segment(i, group).norm());
         if (size > longest) step *= longest / size;
         const double slope = gradient.dot(step), before = value;
-        if (!(-slope > kSettled)) break;
+        if (!(-slope > kSettledBalance)) break;
         const Eigen::VectorXd from = it.coordinates();
         bool accepted = false;
         double length = 1;
@@ -42,7 +42,7 @@ int balance(Balanced& it, Eigen::MatrixXd hessian, double longest, int group) {
             hessian += change * change.transpose() / curvature - image * image.transpose() / moved.dot(image);
         }
         gradient = next;
-        if (before - value < kSettled) break;
+        if (before - value < kSettledBalance) break;
     }
     return moves;
 }

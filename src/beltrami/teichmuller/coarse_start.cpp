@@ -18,14 +18,14 @@ namespace {
 constexpr int kCoarsePart = 7, kFewestTriangles = 1'200, kMostTriangles = 5'000;
 
 /// The iteration ends there at this part of its bracket: a start need not be exact.
-constexpr double kWithinBracket = 0.01;
+constexpr double kWithinCoarseBracket = 0.01;
 /// From so many samples on a step costs more than all of another coarse mesh, of this part of the samples: there the
 /// iteration goes on until it knows how f-step and c-step answer, which the fine one then need not learn.
 constexpr int kAnsweredFrom = 300'000, kAnsweredPart = 50;
 constexpr double kAnsweredChange = 1e-4;
 
 /// Polynomials of this degree, until φ changes by less than this, at most so often.
-constexpr int kRoughDegree = 8, kRoughIterations = 12;
+constexpr int kRoughDegree = 8, kRoughCoarseIterations = 12;
 constexpr double kRoughChange = 0.2;
 
 /// The prescribed values along the canonical circle.
@@ -91,7 +91,7 @@ CoarseStart coarse_start(const Surface& source, const BoundaryCondition& boundar
     HamiltonIteration::Options coarse_options = iteration_options(options);
     coarse_options.progress = {};
     coarse_options.grow_last = false;
-    coarse_options.within_bracket = answered ? 0 : kWithinBracket;
+    coarse_options.within_bracket = answered ? 0 : kWithinCoarseBracket;
     adapt_to_smooth(options, coarse_options);
     if (answered) {
         coarse_options.tolerance = std::max(coarse_options.tolerance, kAnsweredChange);
@@ -104,7 +104,7 @@ CoarseStart coarse_start(const Surface& source, const BoundaryCondition& boundar
         HamiltonIteration::Options rough = coarse_options;
         rough.tolerance = kRoughChange;
         rough.k_tolerance = kRoughChange * kRoughChange;
-        rough.max_iterations = kRoughIterations;
+        rough.max_iterations = kRoughCoarseIterations;
         HamiltonIteration(problem.map_step(), problem.coefficient_step(), rough)
             .run(result.state, std::make_unique<PolynomialSpace>(kRoughDegree, kRoughDegree));
         result.state.space = std::make_unique<PolynomialSpace>(grown ? largest_degree : kRoughDegree, largest_degree);

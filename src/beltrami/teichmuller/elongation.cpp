@@ -14,15 +14,15 @@ namespace {
 /// Mean |μ| from which on a map counts as elongated: K about 7.
 constexpr double kElongated = 0.75;
 /// The least and the largest |μ| at which coefficients are held, and the part of the way to 1 that is room.
-constexpr double kLeastClip = 0.95, kMostClip = 0.9999, kRoom = 0.5;
+constexpr double kLeastElongatedClip = 0.95, kMostElongatedClip = 0.9999, kRoom = 0.5;
 constexpr int kDegree = 8;
 /// Samples below which so many functions would fit anything.
-constexpr int kLeastSamples = 10 * (3 + kDegree + 1);
+constexpr int kLeastSamplesOfDegree = 10 * (3 + kDegree + 1);
 
 }  // namespace
 
 bool is_elongated(const Operators& operators, const Eigen::VectorXcd& harmonic) {
-    if (operators.sample_count() < kLeastSamples) return false;
+    if (operators.sample_count() < kLeastSamplesOfDegree) return false;
     double sum = 0;
     const Eigen::VectorXcd mu = beltrami_coefficient(operators, harmonic);
     for (int s = 0; s < operators.sample_count(); ++s) {
@@ -36,7 +36,7 @@ double clip_of_elongated(const Operators& operators, const Eigen::VectorXcd& har
     double largest = 0;
     for (const Complex mu : beltrami_coefficient(operators, harmonic))
         if (std::abs(mu) < 1) largest = std::max(largest, std::abs(mu));
-    return std::clamp(1 - kRoom * (1 - largest), kLeastClip, kMostClip);
+    return std::clamp(1 - kRoom * (1 - largest), kLeastElongatedClip, kMostElongatedClip);
 }
 
 std::unique_ptr<DifferentialSpace> harmonic_square_space(const Surface& source, const Chart& chart,

@@ -23,13 +23,13 @@ namespace beltrami {
 
 namespace {
 
-constexpr double kTolerance = 1e-6, kToleranceOfK = 1e-2;
+constexpr double kHyperbolicTolerance = 1e-6, kHyperbolicToleranceOfK = 1e-2;
 constexpr double kUnresolvedK = 1e-3;  // part of K by which it may be below the homology bound
 
 HamiltonIteration::Options iteration_options(const HyperbolicMapOptions& options) {
     HamiltonIteration::Options result;
-    result.tolerance = options.tolerance > 0 ? options.tolerance : kTolerance;
-    result.k_tolerance = kToleranceOfK * result.tolerance;
+    result.tolerance = options.tolerance > 0 ? options.tolerance : kHyperbolicTolerance;
+    result.k_tolerance = kHyperbolicToleranceOfK * result.tolerance;
     result.max_iterations = options.max_iterations;
     result.anderson_window = options.anderson_window;
     result.grow_first = result.grow_last = false;

@@ -16,7 +16,7 @@ namespace beltrami {
 namespace {
 
 /// Of the largest displacement in a step: a start need not be exact.
-constexpr double kTolerance = 1e-3;
+constexpr double kHyperbolicSlidingTolerance = 1e-3;
 
 Positions in_space(const Eigen::VectorXcd& points) {
     Positions result = Positions::Zero(points.size(), 3);
@@ -34,7 +34,7 @@ Eigen::VectorXcd harmonic_onto(const Surface& source, const Surface& target, con
         source, from.original, group,
         nearest_vertices(source.topology, target.topology, target.mesh, to.metric.triangles, in_space(near)));
     EquivariantMapStep step(source, marking.map);
-    step.relax(kTolerance);
+    step.relax(kHyperbolicSlidingTolerance);
     const std::vector<MeshPoint> places = places_of(to, step.map());
     Eigen::VectorXcd result = Eigen::VectorXcd::Zero(near.size());
     for (std::size_t v = 0; v < places.size(); ++v)

@@ -33,8 +33,8 @@ constexpr int kFirstDegree = 8, kFirstMixedDegree = 12, kLargestMixedDegree = 24
 constexpr int kMostSlitPowers = 60, kFirstSlitPowers = 12;
 constexpr double kTurnAtEnd = 2;
 /// Around a hole with prescribed values, edges for each power of r/(z − c).
-constexpr int kEdgesPerPower = 6;
-constexpr int kLeastPower = 3, kMostPower = 16;
+constexpr int kEdgesPerMixedPower = 6;
+constexpr int kLeastMixedPower = 3, kMostMixedPower = 16;
 
 /// Boundary vertices that are held, of all loops.
 std::vector<int> held_on_boundary(const Surface& source, const MixedBoundary& boundary) {
@@ -163,8 +163,9 @@ AdmissibleDifferentials mixed_differentials(const Surface& source, const CircleD
     std::vector<int> powers;
     powers.reserve(domain.holes.size());
     for (const RoundHole& hole : domain.holes)
-        powers.push_back(std::clamp(static_cast<int>(source.topology.boundary_loops[hole.loop].size()) / kEdgesPerPower,
-                                    kLeastPower, kMostPower));
+        powers.push_back(
+            std::clamp(static_cast<int>(source.topology.boundary_loops[hole.loop].size()) / kEdgesPerMixedPower,
+                       kLeastMixedPower, kMostMixedPower));
     int largest = PolynomialSpace::largest_degree(source.operators.sample_count()), first = kFirstDegree;
     if (SlitSpace::describes(mixed) && !most) {
         const auto slits = static_cast<int>(mixed.loops[0].transitions.size()) / 2;

@@ -21,18 +21,18 @@ namespace beltrami {
 namespace {
 
 /// Ends of sliding arcs lie on their curve to this part of its diameter.
-constexpr double kOnCurve = 1e-6;
+constexpr double kOnMixedCurve = 1e-6;
 /// Steps in which loops turn, and the movement, as part of the curve, at which they have.
 constexpr int kTurningSteps = 20;
 constexpr double kTurnedBelow = 0.02, kTurningTolerance = 1e-3;
 /// Pushes of inner vertices, how far each goes and the disk it moves, as parts of the distance to what is not to move
 /// with it.
 constexpr int kPushes = 500;
-constexpr double kPush = 0.1, kReach = 0.9;
+constexpr double kPush = 0.1, kPushReach = 0.9;
 /// Newton steps in which folds of the start are opened.
 constexpr int kOpeningSteps = 60;
 /// Least length of a step along a rim: parts of the mean of its neighbours, and of what arc length gives.
-constexpr double kOfNeighbours = 1e-3, kOfLength = 1e-5;
+constexpr double kOfMixedNeighbours = 1e-3, kOfLength = 1e-5;
 
 /// The similarity a z + b that fits what is prescribed best, in least squares.
 struct Similarity {
@@ -66,7 +66,7 @@ bool ends_arc(const std::vector<char>& held, std::size_t i) {
 /// Steps along a rim that a chart has crowded to nothing get a length: a part of that of their neighbours, and of what
 /// the lengths of the edges would give them.
 void raise_crowded(const std::vector<double>& lengths, std::vector<double>& steps) {
-    raise_to_neighbours(steps, kOfNeighbours);
+    raise_to_neighbours(steps, kOfMixedNeighbours);
     const double whole = std::accumulate(steps.begin(), steps.end(), 0.0),
                  length = std::accumulate(lengths.begin(), lengths.end(), 0.0);
     for (std::size_t i = 0; i < steps.size(); ++i)
@@ -125,7 +125,7 @@ class LoopPlaces {
     }
     double parameter_of(int i) const {
         const double s = curve_.nearest(images_[i]);
-        if (std::abs(curve_.point(s) - images_[i]) > kOnCurve * curve_.diameter())
+        if (std::abs(curve_.point(s) - images_[i]) > kOnMixedCurve * curve_.diameter())
             throw Error(Cause::bad_boundary,
                         "the image of vertex " + std::to_string(vertices_[i]) +
                             ", beside vertices that slide, does not lie on the curve along which they do",
@@ -215,7 +215,7 @@ bool push(const Surface& source, const std::vector<int>& vertices, const std::ve
             for (std::size_t j = 0; j < n; ++j)
                 if (j != i) reach[i] = std::min(reach[i], std::abs(at[j] - at[i]));
             for (const int v : rim) reach[i] = std::min(reach[i], std::abs(map[v] - at[i]));
-            reach[i] *= kReach;
+            reach[i] *= kPushReach;
             if (!(reach[i] > 0)) return false;
             largest = std::max(largest, std::abs(by[i]) / reach[i]);
         }

@@ -13,7 +13,7 @@ namespace beltrami {
 namespace {
 
 /// An edge of a loop with less than this part of the mean increment is crowded.
-constexpr double kCrowded = 1e-3;
+constexpr double kCrowdedIncrement = 1e-3;
 /// Centres of circles that differ by less, as part of the radius, are one.
 constexpr double kConcentric = 1e-9;
 
@@ -48,7 +48,9 @@ ConcentricRing concentric_ring(const TargetDomain& target) {
 
 bool is_crowded(const AnnulusPotentials& potentials) {
     return std::any_of(potentials.increments.begin(), potentials.increments.end(), [](const auto& loop) {
-        const auto crowded = [&](double step) { return std::abs(step) * static_cast<double>(loop.size()) < kCrowded; };
+        const auto crowded = [&](double step) {
+            return std::abs(step) * static_cast<double>(loop.size()) < kCrowdedIncrement;
+        };
         return std::any_of(loop.begin(), loop.end(), crowded);
     });
 }

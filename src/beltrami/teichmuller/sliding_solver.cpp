@@ -20,10 +20,10 @@ namespace {
 /// Where spaces grow φ goes on settling while k stays: on fine meshes by half a step, and the map with it.
 constexpr int kQuietSteps = 20;
 /// How many solves the system is ordered for.
-constexpr int kExpectedFactorizations = 8;
+constexpr int kExpectedSlidingFactorizations = 8;
 /// Newton steps of the boundary after the iteration, each solved to this part of the map, …
 constexpr int kLastSteps = 10;
-constexpr double kSettled = 1e-9;
+constexpr double kSettledSliding = 1e-9;
 /// … until one moves no vertex by more than this part of its curve: what the step has left over is below that, and the
 /// next one moves them by less than a hundredth.
 constexpr double kLastMovement = 1e-7;
@@ -87,7 +87,7 @@ void SlidingSolver::begin() {
     begun_.warnings = problem_->warnings();
 
     boundary_.emplace(source(), std::move(start.loops), problem_->prescribed());
-    step_.emplace(source(), *boundary_, std::move(start.map), kExpectedFactorizations);
+    step_.emplace(source(), *boundary_, std::move(start.map), kExpectedSlidingFactorizations);
     phi_ = problem_->differentials(begun_.start, step_->lend_solver());
     begun_.space = phi_.kind;
     begun_.dimension_gap = phi_.gap;
@@ -242,7 +242,7 @@ FoundMap SlidingSolver::settle(ExtremalMap& result) {
     const CoefficientStep::Result& last = iteration.last_step();
     const Eigen::VectorXcd nu = teichmueller_coefficient(last.k, last.phi);
     for (int i = 0; i < kLastSteps && iteration.converged(); ++i) {
-        step_->solve(nu, kSettled);
+        step_->solve(nu, kSettledSliding);
         ++result.iterations;
         if (step_->movement() < kLastMovement) break;
     }
@@ -298,9 +298,9 @@ void SlidingSolver::record_bounds(const FoundMap& found, const std::optional<Fou
 bool SlidingSolver::settle_conformal(int max_steps, int& steps) {
     const Eigen::VectorXcd nu = Eigen::VectorXcd::Zero(source().operators.sample_count());
     for (steps = 0; steps < max_steps;) {
-        step_->solve(nu, kSettled);
+        step_->solve(nu, kSettledSliding);
         ++steps;
-        if (step_->movement() < kSettled) return true;
+        if (step_->movement() < kSettledSliding) return true;
     }
     return false;
 }

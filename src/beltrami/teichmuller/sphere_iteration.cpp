@@ -15,21 +15,21 @@ namespace beltrami {
 
 namespace {
 
-constexpr double kTolerance = 1e-5, kToleranceOfK = 0.1;
+constexpr double kSphereTolerance = 1e-5, kSphereToleranceOfK = 0.1;
 /// Steps that would narrow the bracket by less than this part are not worth while: k moves by 1e-5 of itself or less.
-constexpr double kWithinBracket = 3e-3;
+constexpr double kWithinSphereBracket = 3e-3;
 constexpr int kStepsBack = 3;     // on the mesh itself after one that is finer around landmarks
 constexpr double kHeldUp = 0.05;  // part of a step below which something holds up the map
 /// Meshes on which a c-step is cheap: for these the iteration is repeated on finer ones.
 constexpr int kSmallMesh = 10'000;
-constexpr Fineness kAround{.halvings = 2, .rings = 1}, kAroundOnSmallMesh{.halvings = 4, .rings = 3};
+constexpr Fineness kAroundLandmarks{.halvings = 2, .rings = 1}, kAroundLandmarksOnSmallMesh{.halvings = 4, .rings = 3};
 /// Of k, from one mesh width to its half: beyond that the first is no mesh width to extrapolate from.
 constexpr double kExtrapolated = 0.02;
 
 HamiltonIteration::Options iteration_options(const ExtremalSphereOptions& options) {
     HamiltonIteration::Options result;
-    result.tolerance = options.tolerance > 0 ? options.tolerance : kTolerance;
-    result.k_tolerance = kToleranceOfK * result.tolerance;
+    result.tolerance = options.tolerance > 0 ? options.tolerance : kSphereTolerance;
+    result.k_tolerance = kSphereToleranceOfK * result.tolerance;
     result.max_iterations = options.max_iterations;
     result.anderson_window = 0;
     result.grow_first = result.grow_last = false;
@@ -59,10 +59,10 @@ SphereIteration settle(const Surface& surface, SphereProblem& problem, const Pos
         result.residual = (soft.places() - landmarks.images).rowwise().norm().maxCoeff();
     }
     HamiltonIteration::Options how = iteration_options(options);
-    if (!landmarks.soft() && !(options.tolerance > 0)) how.within_bracket = kWithinBracket;
+    if (!landmarks.soft() && !(options.tolerance > 0)) how.within_bracket = kWithinSphereBracket;
     const HamiltonIteration iteration = problem.settle(step, std::move(how));
     result.last = iteration.last_step();
-    result.held_up = step.last_length() < kHeldUp && result.last.k > kTolerance;
+    result.held_up = step.last_length() < kHeldUp && result.last.k > kSphereTolerance;
     result.converged = iteration.converged();
     result.iterations += iteration.iterations();
     result.factorizations = step.factorization_count();
@@ -98,7 +98,7 @@ void extrapolate(const Surface& source, const Positions& on_sphere, const Sphere
                  const ExtremalSphereOptions& options, SphereIteration& first) {
     const AroundLandmarks halved = refined_everywhere(source, {on_sphere, first.points});
     std::optional<SphereIteration> second =
-        settle_around(halved.surface, halved.maps, landmarks, options, kAroundOnSmallMesh);
+        settle_around(halved.surface, halved.maps, landmarks, options, kAroundLandmarksOnSmallMesh);
     if (!second || !second->converged || second->held_up) return;
     second->points.conservativeResize(source.mesh.vertex_count(), 3);
     if (!SphereFaces(source).flipped(second->points).empty()) return;
@@ -144,7 +144,8 @@ SphereIteration iterate_on_sphere(const Surface& source, SphereProblem& problem,
     if (halves || all_triangles(source.mesh)) {
         const Surface& triangles = halves ? *halves : source;
         const bool small = triangles.mesh.face_count() <= kSmallMesh && !landmarks.soft();
-        found = settle_around(triangles, {on_sphere, start}, landmarks, options, small ? kAroundOnSmallMesh : kAround);
+        found = settle_around(triangles, {on_sphere, start}, landmarks, options,
+                              small ? kAroundLandmarksOnSmallMesh : kAroundLandmarks);
         if (found && small && found->converged && !found->held_up)
             extrapolate(triangles, on_sphere, landmarks, options, *found);
         if (found && halves && !SphereFaces(source).flipped(found->points).empty()) found.reset();

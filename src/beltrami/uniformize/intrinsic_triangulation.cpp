@@ -15,7 +15,7 @@ namespace {
 // Delaunay, the energy is twice differentiable across the tie, and grids do not flip back and forth.
 constexpr double kDelaunayTie = 1e-9;
 // A flip must gain this much, so that rounding in needles cannot make two diagonals replace each other for ever.
-constexpr double kLeastGain = 1e-12;
+constexpr double kLeastGainOfFlip = 1e-12;
 constexpr double kSmallestLogRatio = -300.0;  // keeps products of two relative lengths above underflow
 
 /// Lengths of a triangle relative to the longest, and what Heron's formula is made of.
@@ -138,7 +138,7 @@ std::vector<EdgeFlip> IntrinsicTriangulation::flip_to_delaunay(const Eigen::Vect
         flip(h, new_log_length);
         measure(h / 3);
         measure(twin / 3);
-        if (!(cosines_[h] + cosines_[twin] > before + kLeastGain)) {
+        if (!(cosines_[h] + cosines_[twin] > before + kLeastGainOfFlip)) {
             for (int turn = 0; turn < 3; ++turn) flip(h, turn == 2 ? old_log_length : new_log_length);
             measure(h / 3);
             measure(twin / 3);

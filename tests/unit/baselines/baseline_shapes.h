@@ -11,8 +11,9 @@
 
 namespace beltrami::baseline_tests {
 
-/// A disk of rings: 1 + 3·rings·(rings + 1) vertices, 6·rings² triangles, the boundary last and counter-clockwise.
-inline Mesh disk(
+/// A ringed_disk of rings: 1 + 3·rings·(rings + 1) vertices, 6·rings² triangles, the boundary last and
+/// counter-clockwise.
+inline Mesh ringed_disk(
     int rings, const std::function<Complex(Complex)>& place = [](Complex z) { return z; }) {
     Mesh mesh;
     mesh.positions.resize(1 + 3 * rings * (rings + 1), 2);

@@ -36,14 +36,14 @@ const std::vector<Method> kAll{{"harmonic", harmonic_baseline},
                                {"qc", qc_iteration_baseline}};
 const std::vector<Method> kFree{{"lscm", lscm_baseline}, {"arap", arap_baseline}, {"mips", mips_baseline}};
 
-/// A hill without symmetry over the disk.
+/// A hill without symmetry over the ringed_disk.
 Mesh hill(int rings) {
-    return bent(disk(rings), [](double x, double y) {
+    return bent(ringed_disk(rings), [](double x, double y) {
         return Eigen::Vector3d(x, y, 0.9 * std::exp(-4 * ((x - 0.2) * (x - 0.2) + y * y)) + 0.2 * x * y);
     });
 }
 
-/// The boundary of a disk-like surface in space to a circle, by the angle of its points, unevenly.
+/// The boundary of a ringed_disk-like surface in space to a circle, by the angle of its points, unevenly.
 BoundaryCondition to_circle(const Surface& source, double uneven) {
     BoundaryCondition boundary;
     for (const int v : source.topology.boundary_loops[0]) {
@@ -72,7 +72,7 @@ bool mentions(const BaselineMap& result, const std::string& word) {
 // ---- all methods ----------------------------------------------------------------------------------------------------
 
 TEST(Baselines, TheIdentityOnTheBoundaryGivesTheIdentity) {
-    for (const Mesh& mesh : {disk(8), square(8, false), square(8, true)}) {
+    for (const Mesh& mesh : {ringed_disk(8), square(8, false), square(8, true)}) {
         const Surface source(mesh);
         const BoundaryCondition boundary = prescribe(source, [](Complex z) { return z; });
         for (const Method& method : kAll) {
@@ -150,7 +150,7 @@ TEST(Baselines, FreeMapsOfAPlanarMeshAreSimilarities) {
 }
 
 TEST(Baselines, RecordABoundaryThatForcesFolds) {
-    const Surface source(disk(6));
+    const Surface source(ringed_disk(6));
     const BoundaryCondition clockwise = prescribe(source, [](Complex z) { return std::conj(z); });
     for (const Method& method : kAll) {
         const BaselineMap result = method.map(source, clockwise, {});
@@ -171,7 +171,7 @@ void expect_error(Cause cause, const char* part, const std::function<void()>& ca
 }
 
 TEST(Baselines, RejectWhatIsMissing) {
-    const Surface source(disk(3));
+    const Surface source(ringed_disk(3));
     BoundaryCondition one, same, partial;
     one.pin(0, 0.0);
     same.pin(0, 1.0);
@@ -195,7 +195,7 @@ TEST(Baselines, RejectWhatIsMissing) {
     for (const Method& method : kAll)
         expect_error(Cause::bad_mesh, "closed surface", [&] { method.map(closed, one, {}); });
 
-    Mesh pair = disk(2);
+    Mesh pair = ringed_disk(2);
     const int n = pair.vertex_count();
     const FaceList single = pair.faces;
     pair.positions.conservativeResize(2 * n, Eigen::NoChange);
@@ -278,7 +278,7 @@ TEST(Baselines, FreeBoundariesKeepTheArea) {
 }
 
 TEST(Arap, EnergyNeverRises) {
-    const Surface lobes(disk(12)), surface(hill(12));
+    const Surface lobes(ringed_disk(12)), surface(hill(12));
     struct Case {
         const Surface& source;
         BoundaryCondition boundary;
@@ -364,7 +364,7 @@ TEST(Mips, EnergyFallsToAStationaryMapWithoutFolds) {
 }
 
 TEST(Mips, UntanglesThreeLobes) {
-    const Surface source(disk(27));
+    const Surface source(ringed_disk(27));
     const BoundaryCondition boundary = prescribe(source, three_lobes);
     const BaselineMap start = harmonic_baseline(source, boundary);
     ASSERT_GT(distortion(source.operators, start.map).flipped.size(), 100u);
@@ -379,7 +379,7 @@ TEST(Mips, UntanglesThreeLobes) {
 TEST(Mips, StartsFromTuttesMapWhereTheHarmonicOneFolds) {
     // Pairs of slivers along a long edge, whose cotangent weight is negative: the harmonic map folds although its image
     // is convex.
-    const Mesh mesh = disk(8);
+    const Mesh mesh = ringed_disk(8);
     const Topology edges = topology(mesh);
     std::vector<EdgeLength> lengths;
     std::vector<char> used(mesh.face_count(), 0);
@@ -399,7 +399,7 @@ TEST(Mips, StartsFromTuttesMapWhereTheHarmonicOneFolds) {
 }
 
 TEST(Mips, SaysWhenTheBoundaryCrossesItself) {
-    const Surface source(disk(8));
+    const Surface source(ringed_disk(8));
     const BoundaryCondition boundary =
         prescribe(source, [](Complex z) { return std::polar(1.0, std::arg(z) + 1.5 * std::sin(std::arg(z))); });
     const BaselineMap result = mips_baseline(source, boundary);

@@ -10,7 +10,7 @@
 namespace beltrami {
 namespace {
 
-Eigen::VectorXcd harmonic(const Surface& surface, const BoundaryCondition& boundary) {
+Eigen::VectorXcd harmonic_values(const Surface& surface, const BoundaryCondition& boundary) {
     return dirichlet_solver(surface).solve(prescribed_values(boundary, surface));
 }
 
@@ -31,7 +31,7 @@ TEST(VerifiedBracket, OfAnExactMapFromAHarmonicStart) {
     VerifiedBracketOptions options;
     options.gap = 0.03;
     options.K_lower = 2.98;
-    const VerifiedBracket bracket = verified_bracket(surface, boundary, harmonic(surface, boundary), options);
+    const VerifiedBracket bracket = verified_bracket(surface, boundary, harmonic_values(surface, boundary), options);
     expect_verified(bracket);
     EXPECT_TRUE(bracket.reached) << bracket.reason;
     EXPECT_GT(bracket.K_upper, 3);  // K* of the polygon is larger than that of the circle
@@ -55,7 +55,7 @@ TEST(VerifiedBracket, AConePointNeedsPowerElements) {
     VerifiedBracketOptions options;
     options.gap = 0.05;
     options.most_triangles = 3000;
-    const VerifiedBracket bracket = verified_bracket(surface, boundary, harmonic(surface, boundary), options);
+    const VerifiedBracket bracket = verified_bracket(surface, boundary, harmonic_values(surface, boundary), options);
     expect_verified(bracket);
     EXPECT_FALSE(bracket.cones.empty());
     EXPECT_LT(bracket.K_upper, tip) << bracket.reason;
@@ -69,7 +69,7 @@ TEST(VerifiedBracket, StartsThatFoldAreOpened) {
     options.gap = 0.2;
     options.K_lower = 1.8;
     options.most_triangles = 3000;
-    const VerifiedBracket bracket = verified_bracket(surface, boundary, harmonic(surface, boundary), options);
+    const VerifiedBracket bracket = verified_bracket(surface, boundary, harmonic_values(surface, boundary), options);
     EXPECT_GE(bracket.K_lower, 1.8);
     if (bracket.reached)
         expect_verified(bracket);

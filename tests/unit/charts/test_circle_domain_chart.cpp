@@ -35,16 +35,6 @@ Mesh three_holes(double edge_length) {
     return circle_domain({}, kCircles, options);
 }
 
-/// The mesh with its vertices moved by a function of x + iy.
-template <class Map>
-Mesh mapped(Mesh mesh, const Map& map) {
-    for (int v = 0; v < mesh.vertex_count(); ++v) {
-        const Complex w = map(Complex(mesh.positions(v, 0), mesh.positions(v, 1)));
-        mesh.positions.row(v) << w.real(), w.imag();
-    }
-    return mesh;
-}
-
 std::vector<RoundHole> truth() {
     std::vector<RoundHole> holes;
     for (const Circle& circle : kCircles) holes.push_back({-1, centre_of(circle), circle.radius});
@@ -126,7 +116,7 @@ TEST(CircleDomainChart, OfAConformalImageHasTheModuliOfTheOriginalToSecondOrder)
     for (const bool in_space : {false, true}) {
         double coarse = 0;
         for (const double h : {0.1, 0.05, 0.025}) {
-            const Surface source(in_space ? test::on_sphere(three_holes(h)) : mapped(three_holes(h), wavy));
+            const Surface source(in_space ? test::on_sphere(three_holes(h)) : test::moved(three_holes(h), wavy));
             const CircleDomainChart chart = circle_domain_chart(source);
             check(source, chart, 0);
             EXPECT_FALSE(chart.chart.exact);
@@ -160,7 +150,7 @@ TEST(CircleDomainChart, StaysExactWhereAnAnalyticMapMakesTheHolesRound) {
         map.poles.push_back({centre_of(circle), circle.radius, Eigen::VectorXcd(3)});
         map.poles.back().coefficients << Complex(0.004, 0.002), Complex(0.01, -0.004), Complex(0.002, 0.006);
     }
-    const Surface source(mapped(three_holes(0.025), [&](Complex z) { return map(z)[0]; }));
+    const Surface source(test::moved(three_holes(0.025), [&](Complex z) { return map(z)[0]; }));
     const CircleDomainChart exact = circle_domain_chart(source);
     check(source, exact, 0);
     EXPECT_TRUE(exact.chart.exact);

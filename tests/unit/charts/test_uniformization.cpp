@@ -25,15 +25,6 @@ Mesh domain(std::vector<Circle> circles, double edge_length) {
     return circle_domain({}, circles, options);
 }
 
-template <class Map>
-Mesh mapped(Mesh mesh, const Map& map) {
-    for (int v = 0; v < mesh.vertex_count(); ++v) {
-        const Complex w = map(Complex(mesh.positions(v, 0), mesh.positions(v, 1)));
-        mesh.positions.row(v) << w.real(), w.imag();
-    }
-    return mesh;
-}
-
 /// Normalised, with these circles in the order of the mesh's loops.
 std::vector<double> moduli_of(const Mesh& mesh, const std::vector<Circle>& circles) {
     const Surface surface(mesh);
@@ -87,7 +78,7 @@ TEST(Uniformization, ModulesOfRingsConverge) {
     const double exact = std::log(1 / 0.35) / (2 * std::numbers::pi);
     std::vector<double> errors;
     for (const double h : {0.12, 0.06, 0.03}) {
-        const Mesh ring = mapped(domain({{{0, 0}, 0.35}}, h), [](Complex z) { return z + 0.12 * z * z; });
+        const Mesh ring = test::moved(domain({{{0, 0}, 0.35}}, h), [](Complex z) { return z + 0.12 * z * z; });
         const Surface surface(test::on_sphere(ring));
         const Uniformization found = uniformization(surface);
         expect_normalised(surface, found);
@@ -130,7 +121,7 @@ TEST(Uniformization, DoesNotDependOnMoebiusMapsOfTheSurface) {
     const Mesh flat = domain(kRoundHoles, 0.06);
     const Uniformization one = uniformization(Surface(flat));
     for (const DiskMoebius& move : {DiskMoebius{1.1, {0.4, -0.2}}, DiskMoebius{-2.0, {0, 0.5}}}) {
-        const Surface moved(mapped(flat, [&](Complex z) { return 3.0 * move(z) + Complex(1, 2); }));
+        const Surface moved(test::moved(flat, [&](Complex z) { return 3.0 * move(z) + Complex(1, 2); }));
         const Uniformization other = uniformization(moved);
         expect_normalised(moved, other);
         EXPECT_LT(worst(one.moduli, other.moduli), 1e-9);

@@ -25,13 +25,13 @@ DualProblem problem_of(const Surface& surface, const Chart& chart, const Differe
     return problem;
 }
 
-struct Setting {
+struct DualSetting {
     Surface surface{disk(disk_rings_for_triangles(3000))};
     Chart chart = round_disk_chart(surface);
     PolynomialSpace space{6, 6};
     Eigen::VectorXcd exact = Eigen::VectorXcd::Zero(7);
 
-    Setting() { exact << 1.0, Complex(0.3, 0.2), -0.2, 0, Complex(0, 0.1), 0, 0; }
+    DualSetting() { exact << 1.0, Complex(0.3, 0.2), -0.2, 0, Complex(0, 0.1), 0, 0; }
     Eigen::VectorXcd teichmueller(double k) const {
         const Eigen::VectorXcd phi = space.combination({chart.positions, chart.derivatives}, exact);
         return k * phi.conjugate().cwiseQuotient(phi.cwiseAbs().cast<Complex>());
@@ -39,7 +39,7 @@ struct Setting {
 };
 
 TEST(DualStep, RecoversATeichmuellerCoefficientExactly) {
-    const Setting setting;
+    const DualSetting setting;
     for (const double k : {0.05, 0.5, 0.9}) {
         const DualProblem problem = problem_of(setting.surface, setting.chart, setting.space, setting.teichmueller(k));
         const DualSolution solution = solve_dual(problem, {});
@@ -51,7 +51,7 @@ TEST(DualStep, RecoversATeichmuellerCoefficientExactly) {
 }
 
 TEST(DualStep, IsTheMaximum) {
-    const Setting setting;
+    const DualSetting setting;
     Eigen::VectorXcd mu = setting.teichmueller(0.4);
     for (int s = 0; s < mu.size(); ++s) mu[s] = 0.8 * mu[s] + Complex(0.1 * std::sin(s), 0.1 * std::cos(5 * s));
     const DualProblem problem = problem_of(setting.surface, setting.chart, setting.space, mu);
@@ -85,7 +85,7 @@ class NormOf final : public DualNorm {
 };
 
 TEST(DualStep, TheMinimumIsThatOfTheNormWhateverTheQuadratureOfTheHessian) {
-    const Setting setting;
+    const DualSetting setting;
     Eigen::VectorXcd mu = setting.teichmueller(0.4);
     for (int s = 0; s < mu.size(); ++s) mu[s] += Complex(0.05 * std::sin(s), 0.05 * std::cos(5 * s));
     const DualProblem fine = problem_of(setting.surface, setting.chart, setting.space, mu);
@@ -127,7 +127,7 @@ class CountedNorm final : public DualNorm {
 };
 
 TEST(DualStep, FewStepsFromNearAndFewLooksAtTheFineNorm) {
-    const Setting setting;
+    const DualSetting setting;
     Eigen::VectorXcd mu = setting.teichmueller(0.4);
     for (int s = 0; s < mu.size(); ++s) mu[s] += Complex(0.05 * std::sin(s), 0.05 * std::cos(5 * s));
     DualProblem problem = problem_of(setting.surface, setting.chart, setting.space, mu);
@@ -155,14 +155,14 @@ TEST(DualStep, FewStepsFromNearAndFewLooksAtTheFineNorm) {
 }
 
 TEST(DualStep, NothingToSee) {
-    const Setting setting;
+    const DualSetting setting;
     const DualProblem problem = problem_of(setting.surface, setting.chart, setting.space,
                                            Eigen::VectorXcd::Zero(setting.surface.operators.sample_count()));
     EXPECT_EQ(solve_dual(problem, {}).pairing, 0.0);
 }
 
 TEST(DualStep, WrongStartsDoNotMatter) {
-    const Setting setting;
+    const DualSetting setting;
     const DualProblem problem = problem_of(setting.surface, setting.chart, setting.space, setting.teichmueller(0.3));
     const Eigen::VectorXcd c = solve_dual(problem, -setting.exact).coefficients;
     EXPECT_LT((c.normalized() - setting.exact.normalized()).norm(), 1e-7);
@@ -173,7 +173,7 @@ TEST(DilatationOfPairing, InvertsItsFormula) {
 }
 
 TEST(Clusters, ShareTheWholeAreaAndTurnWithTheirPhase) {
-    const Setting setting;
+    const DualSetting setting;
     const SampleClusters clusters = cluster_samples(setting.surface.operators, setting.chart, {}, 0.0, 200);
     double total = 0;
     for (const double a : clusters.squared) total += a;

@@ -26,7 +26,7 @@ MixedDomain two_sliding_holes(std::vector<Complex> pins = {}) {
             {}};
 }
 
-ChartPoints in_domain(const std::vector<Complex>& points) {
+ChartPoints in_mixed_domain(const std::vector<Complex>& points) {
     ChartPoints result;
     result.positions = Eigen::Map<const Eigen::VectorXcd>(points.data(), static_cast<Eigen::Index>(points.size()));
     result.derivatives = Eigen::VectorXcd::Ones(result.positions.size());
@@ -48,7 +48,7 @@ std::vector<Complex> inside(const MixedDomain& domain, double margin = 0.02) {
 }
 
 /// Part of f that is not a real combination of the columns, in the mean square.
-double outside(const Eigen::MatrixXcd& values, const Eigen::VectorXcd& f) {
+double outside_of_span(const Eigen::MatrixXcd& values, const Eigen::VectorXcd& f) {
     Eigen::MatrixXd columns(2 * values.rows(), values.cols());
     columns << values.real(), values.imag();
     Eigen::VectorXd wanted(2 * f.size());
@@ -91,20 +91,20 @@ TEST(MixedSpace, HoldsTheLaurentSeriesOfARing) {
     const MixedDomain domain = ring_with_sliding_inner_circle(r);
     const MixedSpace space(domain, 8, 8, {4});
     const std::vector<Complex> points = inside(domain);
-    const Eigen::MatrixXcd values = space.evaluate(in_domain(points));
+    const Eigen::MatrixXcd values = space.evaluate(in_mixed_domain(points));
     for (int l = 0; l <= 10; ++l)
         for (const Complex b : {Complex(1), kI}) {
             if (l == 0 && b == kI) continue;
-            EXPECT_LT(
-                outside(values, values_of(points,
-                                          [&](Complex z) {
-                                              return (b * std::pow(z, l) + std::conj(b) * std::pow(r * r / z, l)) /
-                                                     (z * z);
-                                          })),
-                1e-6)
+            EXPECT_LT(outside_of_span(values, values_of(points,
+                                                        [&](Complex z) {
+                                                            return (b * std::pow(z, l) +
+                                                                    std::conj(b) * std::pow(r * r / z, l)) /
+                                                                   (z * z);
+                                                        })),
+                      1e-6)
                 << l;
         }
-    EXPECT_GT(outside(values, values_of(points, [](Complex z) { return kI / (z * z); })), 0.5);
+    EXPECT_GT(outside_of_span(values, values_of(points, [](Complex z) { return kI / (z * z); })), 0.5);
 }
 
 TEST(MixedSpace, GrowsByWhatIsPrescribedAndKeepsItsFunctions) {
@@ -118,7 +118,7 @@ TEST(MixedSpace, GrowsByWhatIsPrescribedAndKeepsItsFunctions) {
     ASSERT_NE(largest, nullptr);
     EXPECT_EQ(largest->size(), 2 * 13 + 6 + 2);
     EXPECT_EQ(largest->refined(), nullptr);
-    const ChartPoints points = in_domain(inside(domain));
+    const ChartPoints points = in_mixed_domain(inside(domain));
     const Eigen::MatrixXcd before = space.evaluate(points), after = largest->evaluate(points);
     EXPECT_LT((after.leftCols(space.size()) - before).cwiseAbs().maxCoeff(), 1e-9 * before.cwiseAbs().maxCoeff());
 }
@@ -131,11 +131,11 @@ TEST(MixedSpace, IsRealAlongArcsThatSlideUpToTheirEnds) {
     // Most functions are far more real than the last one.
     for (const double t : {1.5 + 1e-4, 1.5 + 1e-2, 2.0, 2.49, 4.41, 5.0, 6.5}) {
         const Complex z = std::polar(1.0, t);
-        const Eigen::RowVectorXcd values = space.evaluate(in_domain({z})) * (-z * z);
+        const Eigen::RowVectorXcd values = space.evaluate(in_mixed_domain({z})) * (-z * z);
         EXPECT_LT(values.imag().norm(), 0.1 * values.norm()) << t;
     }
     const Complex z = std::polar(1.0, 3.4);  // prescribed: anything
-    const Eigen::RowVectorXcd there = space.evaluate(in_domain({z})) * (-z * z);
+    const Eigen::RowVectorXcd there = space.evaluate(in_mixed_domain({z})) * (-z * z);
     EXPECT_GT(there.imag().norm(), 0.3 * there.norm());
 }
 
@@ -144,7 +144,7 @@ TEST(MixedSpace, HoldsTheDifferentialsOfTheDoubleOverAHalfCircle) {
     const MixedDomain domain = test::disk_with_sliding_arcs({0, std::numbers::pi});
     const MixedSpace space(domain, 12, 12, {});
     const std::vector<Complex> points = inside(domain);
-    const Eigen::MatrixXcd values = space.evaluate(in_domain(points));
+    const Eigen::MatrixXcd values = space.evaluate(in_mixed_domain(points));
     const auto t_of = [](Complex z) {
         const Complex s = std::sqrt(kI * (1.0 + z) / (1.0 - z));
         return (s - kI) / (s + kI);
@@ -155,7 +155,7 @@ TEST(MixedSpace, HoldsTheDifferentialsOfTheDoubleOverAHalfCircle) {
     };
     for (int power = 0; power <= 4; ++power) {
         const auto phi = [&](Complex z) { return std::pow(t_of(z), power) * derivative(z) * derivative(z); };
-        EXPECT_LT(outside(values, values_of(points, phi)), 1e-3) << power;
+        EXPECT_LT(outside_of_span(values, values_of(points, phi)), 1e-3) << power;
     }
 }
 
@@ -169,9 +169,9 @@ TEST(MixedSpace, TurnsWithItsDomain) {
     const std::vector<Complex> points = inside(domain);
     std::vector<Complex> images = points;
     for (Complex& z : images) z *= turn;
-    const Eigen::MatrixXcd values = one.evaluate(in_domain(points)),
-                           there = turn * turn * other.evaluate(in_domain(images));
-    for (Eigen::Index j = 0; j < there.cols(); ++j) EXPECT_LT(outside(values, there.col(j)), 1e-5);
+    const Eigen::MatrixXcd values = one.evaluate(in_mixed_domain(points)),
+                           there = turn * turn * other.evaluate(in_mixed_domain(images));
+    for (Eigen::Index j = 0; j < there.cols(); ++j) EXPECT_LT(outside_of_span(values, there.col(j)), 1e-5);
 }
 
 TEST(MixedSpace, PolesAtPointsOfLinesHaveTheirResidue) {
@@ -179,12 +179,12 @@ TEST(MixedSpace, PolesAtPointsOfLinesHaveTheirResidue) {
     const MixedSpace space(domain, 6, 6, {});
     EXPECT_EQ(space.size(), 2 * 7 + 1);
     const std::vector<Complex> points = inside(domain);
-    const Eigen::MatrixXcd values = space.evaluate(in_domain(points));
+    const Eigen::MatrixXcd values = space.evaluate(in_mixed_domain(points));
     const auto pole = [&](Complex residue) {
         return values_of(points, [&](Complex z) { return residue / (z - domain.held[0].at); });
     };
-    EXPECT_LT(outside(values, pole(domain.held[0].residue)), 1e-6);
-    EXPECT_GT(outside(values, pole(kI * domain.held[0].residue)), 0.1);
+    EXPECT_LT(outside_of_span(values, pole(domain.held[0].residue)), 1e-6);
+    EXPECT_GT(outside_of_span(values, pole(kI * domain.held[0].residue)), 0.1);
 }
 
 TEST(MixedDomain, FollowsWhatIsHeldAlongTheLoops) {

@@ -61,7 +61,7 @@ struct Domain {
     }
 };
 
-std::vector<Circle> grid_of_nine() {
+std::vector<Circle> nine_circles() {
     std::vector<Circle> holes;
     for (int i = -1; i <= 1; ++i)
         for (int j = -1; j <= 1; ++j) holes.push_back({{0.45 * i, 0.45 * j}, 0.12});
@@ -75,9 +75,10 @@ std::vector<Circle> ring_of(int n, double at, double radius) {
     }
     return holes;
 }
-const std::vector<Circle> kRing{{{0, 0}, 0.5}}, kEccentric{{{0.2, 0.1}, 0.5}},
-    kTwo{{{-0.4, 0.1}, 0.2}, {{0.35, 0}, 0.25}}, kThree{{{-0.5, -0.2}, 0.1}, {{0.5, -0.2}, 0.15}, {{0, 0.5}, 0.1}},
-    kCollinear{{{-0.5, 0}, 0.15}, {{0, 0}, 0.15}, {{0.5, 0}, 0.15}};
+const std::vector<Circle> kRingCircles{{{0, 0}, 0.5}}, kEccentricCircles{{{0.2, 0.1}, 0.5}},
+    kTwoCircles{{{-0.4, 0.1}, 0.2}, {{0.35, 0}, 0.25}},
+    kThreeCircles{{{-0.5, -0.2}, 0.1}, {{0.5, -0.2}, 0.15}, {{0, 0.5}, 0.1}},
+    kCollinearCircles{{{-0.5, 0}, 0.15}, {{0, 0}, 0.15}, {{0.5, 0}, 0.15}};
 
 struct Case {
     const char* name;
@@ -116,17 +117,19 @@ TEST_P(Projections, TendToTheLaurentSpaceOfACircleDomain) {
 
 INSTANTIATE_TEST_SUITE_P(
     Domains, Projections,
-    testing::Values(Case{"ring", kRing, {}, 1, 0.001, 1.4}, Case{"ring_jittered", kRing, {}, 1, 0.0014, 1.4, 0.25},
-                    Case{"eccentric", kEccentric, {}, 1, 0.0017, 1.4}, Case{"two", kTwo, {}, 3, 0.0045, 1.3},
-                    Case{"three", kThree, {}, 6, 0.012, 1.3}, Case{"collinear", kCollinear, {}, 6, 0.008, 1.1},
+    testing::Values(Case{"ring", kRingCircles, {}, 1, 0.001, 1.4},
+                    Case{"ring_jittered", kRingCircles, {}, 1, 0.0014, 1.4, 0.25},
+                    Case{"eccentric", kEccentricCircles, {}, 1, 0.0017, 1.4},
+                    Case{"two", kTwoCircles, {}, 3, 0.0045, 1.3}, Case{"three", kThreeCircles, {}, 6, 0.012, 1.3},
+                    Case{"collinear", kCollinearCircles, {}, 6, 0.008, 1.1},
                     Case{"symmetric_four", ring_of(4, 0.55, 0.2), {}, 9, 0.005, 1.4},
-                    Case{"nine", grid_of_nine(), {}, 24, 0.012, 1.1},
+                    Case{"nine", nine_circles(), {}, 24, 0.012, 1.1},
                     // Poles at marked points: their neighbourhood is not resolved on any mesh.
                     Case{"four_marks", {}, {{0.1, 1, 2, 4}}, 1, 0.013, 0.3},
                     Case{"six_marks", {}, {{0.1, 0.8, 2, 2.7, 4, 5}}, 3, 0.015, 0.6},
-                    Case{"ring_and_one_mark", kRing, {{1}}, 1, 0.0012, 1.4},
-                    Case{"ring_and_marks_on_both", kRing, {{1, 2.5}, {{1, 0.3}}}, 3, 0.024, 0.3},
-                    Case{"two_and_marks", kTwo, {{0.1, 1.4, 3}}, 6, 0.016, 0.6}),
+                    Case{"ring_and_one_mark", kRingCircles, {{1}}, 1, 0.0012, 1.4},
+                    Case{"ring_and_marks_on_both", kRingCircles, {{1, 2.5}, {{1, 0.3}}}, 3, 0.024, 0.3},
+                    Case{"two_and_marks", kTwoCircles, {{0.1, 1.4, 3}}, 6, 0.016, 0.6}),
     [](const auto& parameter) { return parameter.param.name; });
 
 TEST(ProjectedSpace, OfARingIsOneOverZSquared) {
@@ -144,7 +147,7 @@ TEST(ProjectedSpace, OfARingIsOneOverZSquared) {
 }
 
 TEST(ProjectedSpace, InteriorMarksCountTwice) {
-    Domain domain(kTwo, {}, 0.04);
+    Domain domain(kTwoCircles, {}, 0.04);
     int inside = 0;
     for (int v = 0; v < domain.surface.mesh.vertex_count(); ++v)
         if (std::abs(domain.chart.vertices[v] - Complex(0, 0.6)) <
@@ -160,7 +163,7 @@ TEST(ProjectedSpace, InteriorMarksCountTwice) {
 
 /// The same domain on the sphere, by stereographic projection: frames of faces, and a metric that varies by a factor.
 TEST(ProjectedSpace, OfASurfaceInSpaceIsThatOfItsChart) {
-    const Domain flat(kTwo, {{0.1, 2}}, 0.04);
+    const Domain flat(kTwoCircles, {{0.1, 2}}, 0.04);
     Mesh mesh = flat.surface.mesh;
     mesh.positions.resize(flat.surface.mesh.vertex_count(), 3);
     for (int v = 0; v < mesh.vertex_count(); ++v) {
@@ -189,7 +192,7 @@ TEST(ProjectedSpace, QuadsHaveTheirFourSamples) {
 }
 
 TEST(ProjectedSpace, DoesNotDependOnScaleAndTurnsWithTheDomain) {
-    const Domain domain(kTwo, {}, 0.06);
+    const Domain domain(kTwoCircles, {}, 0.06);
     const Complex turn = std::polar(1e-3, 0.7);
     Mesh moved = domain.surface.mesh;
     for (int v = 0; v < moved.vertex_count(); ++v) {
@@ -204,7 +207,7 @@ TEST(ProjectedSpace, DoesNotDependOnScaleAndTurnsWithTheDomain) {
 }
 
 TEST(ProjectedSpace, TangentsOfTheTrueCurvesAreThoseOfTheLoops) {
-    const Domain domain(kThree, {}, 0.06);
+    const Domain domain(kThreeCircles, {}, 0.06);
     Eigen::VectorXcd tangents = Eigen::VectorXcd::Zero(domain.surface.mesh.vertex_count());
     for (const auto& loop : domain.surface.topology.boundary_loops) {
         Complex centre = 0;
@@ -219,7 +222,7 @@ TEST(ProjectedSpace, TangentsOfTheTrueCurvesAreThoseOfTheLoops) {
 }
 
 TEST(ProjectedSpace, ALentSolverIsUsedWhereItFits) {
-    const Domain domain(kThree, {}, 0.06);
+    const Domain domain(kThreeCircles, {}, 0.06);
     const ProjectedSpace own = domain.projected();
     std::vector<Freedom> sliding = freedoms({}, domain.surface);
     for (const auto& loop : domain.surface.topology.boundary_loops)
@@ -282,7 +285,7 @@ Eigen::MatrixXcd bumps(const Chart& chart, int count) {
 }
 
 TEST(ProjectedSpace, SeedsThatDoNotSpanAreRefused) {
-    const Domain domain(kCollinear, {}, 0.06);
+    const Domain domain(kCollinearCircles, {}, 0.06);
     const auto refused = [&](const Eigen::MatrixXcd& seeds) {
         try {
             const ProjectedSpace space = projected_space(domain.surface, domain.chart, seeds, {});
@@ -302,7 +305,7 @@ TEST(ProjectedSpace, SeedsThatDoNotSpanAreRefused) {
 
 /// Whatever the seeds: where there is a gap, the space is the right one.
 TEST(ProjectedSpace, AGapMeansTheSpaceIsRight) {
-    const Domain domain(kCollinear, {}, 0.06);
+    const Domain domain(kCollinearCircles, {}, 0.06);
     const ProjectedSpace space = projected_space(domain.surface, domain.chart, bumps(domain.chart, 40), {});
     EXPECT_GT(space.gap, 50);
     EXPECT_TRUE(space.warnings.empty());
@@ -321,7 +324,7 @@ TEST(ProjectedSpace, CornersAreNoticed) {
 }
 
 TEST(ProjectedSpace, RefusesImpossibleOptions) {
-    const Domain domain(kRing, {}, 0.1);
+    const Domain domain(kRingCircles, {}, 0.1);
     const auto refused = [&](const ProjectionOptions& options) {
         try {
             projected_space(domain.surface, domain.chart, options);

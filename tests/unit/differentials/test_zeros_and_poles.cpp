@@ -193,13 +193,14 @@ TEST(ZerosAndPoles, AtTheRimAreOnTheBoundary) {
 }
 
 TEST(ZerosAndPoles, OfDifferentialsRealAlongTheBoundaryAddUp) {
-    struct Case {
+    struct RealDomain {
         std::vector<test::Hole> holes;
         std::vector<double> marks;  // angles on the outer circle
     };
-    for (const auto& [holes, marks] :
-         {Case{{}, {0.1, 1, 2.5, 4}}, Case{{}, {0.1, 1, 2.5, 3.5, 4, 5}}, Case{{{-0.4, 0, 0.2}, {0.4, 0.1, 0.15}}, {}},
-          Case{{{-0.45, 0, 0.2}, {0.4, 0.35, 0.15}, {0.2, -0.5, 0.2}}, {}}, Case{{{-0.3, 0.1, 0.25}}, {1, 3}}}) {
+    for (const auto& [holes, marks] : {RealDomain{{}, {0.1, 1, 2.5, 4}}, RealDomain{{}, {0.1, 1, 2.5, 3.5, 4, 5}},
+                                       RealDomain{{{-0.4, 0, 0.2}, {0.4, 0.1, 0.15}}, {}},
+                                       RealDomain{{{-0.45, 0, 0.2}, {0.4, 0.35, 0.15}, {0.2, -0.5, 0.2}}, {}},
+                                       RealDomain{{{-0.3, 0.1, 0.25}}, {1, 3}}}) {
         SCOPED_TRACE(std::to_string(holes.size()) + " holes, " + std::to_string(marks.size()) + " marks");
         const Surface source(test::disk_with_holes(holes, 0.08));
         const Chart chart = circle_domain_chart(source).chart;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double degree = kPi / 180.0;
 
-double total_area(const Mesh& mesh) {
+double area_of_positive_faces(const Mesh& mesh) {
     double area = 0.0;
     for (int f = 0; f < mesh.face_count(); ++f) {
         EXPECT_GT(face_vector_area(mesh, f).z(), 0.0);
@@ -69,7 +69,7 @@ TEST(CircleDomain, AreaConvergesWithOrderTwo) {
     for (const double h : {0.1, 0.05, 0.025, 0.0125}) {
         DomainOptions options{.edge_length = h};
         options.least_hole_edges = 6;
-        const double error = std::abs(total_area(circle_domain({}, holes, options)) - exact);
+        const double error = std::abs(area_of_positive_faces(circle_domain({}, holes, options)) - exact);
         if (last > 0.0) {
             EXPECT_NEAR(std::log2(last / error), 2.0, 0.35);
         }
@@ -134,7 +134,7 @@ TEST(PolygonDomain, CornersAndInteriorPointsComeFirst) {
     expected.insert(expected.end(), hole.begin(), hole.end());
     expected.insert(expected.end(), options.interior_points.begin(), options.interior_points.end());
     for (std::size_t v = 0; v < expected.size(); ++v) EXPECT_EQ(mesh.point(static_cast<int>(v)).head<2>(), expected[v]);
-    EXPECT_NEAR(total_area(mesh), 3.0 - 0.09, 1e-12);
+    EXPECT_NEAR(area_of_positive_faces(mesh), 3.0 - 0.09, 1e-12);
     const Topology topo = topology(mesh);
     EXPECT_EQ(topo.boundary_loops.size(), 2u);
     EXPECT_FALSE(topo.on_boundary[10] || topo.on_boundary[11]);
@@ -167,7 +167,7 @@ TEST(PolygonDomain, SharpCornersEndAndCostLittle) {
         SCOPED_TRACE(angle);
         const double c = std::cos(angle * degree), s = std::sin(angle * degree);
         const Mesh wedge = polygon_domain({{0, 0}, {1, 0}, {c, s}}, {}, {.edge_length = 0.1});
-        EXPECT_NEAR(total_area(wedge), 0.5 * s, 1e-13);
+        EXPECT_NEAR(area_of_positive_faces(wedge), 0.5 * s, 1e-13);
         EXPECT_LT(wedge.face_count(), 300);
         EXPECT_GE(quality(wedge).min_angle, std::min(0.99 * angle, 18.0) * degree);  // the corner itself is the worst
         // A notch of the same angle, seen from outside, costs nothing at all.
@@ -190,7 +190,7 @@ TEST(PolygonDomain, SharpCornersEndAndCostLittle) {
     // A sliver with a sharp corner on either end of its sides.
     const Mesh sliver = polygon_domain({{0, 0}, {1, 0}, {0.5, 0.02}}, {}, {.edge_length = 0.1});
     EXPECT_LT(sliver.face_count(), 500);
-    EXPECT_NEAR(total_area(sliver), 0.01, 1e-14);
+    EXPECT_NEAR(area_of_positive_faces(sliver), 0.01, 1e-14);
 }
 
 TEST(PolygonDomain, ThinSlits) {
@@ -201,7 +201,7 @@ TEST(PolygonDomain, ThinSlits) {
                                          {{{-0.5, -w}, {0.5, -w}, {0.5, w}, {-0.5, w}}}, {.edge_length = 0.1});
         EXPECT_TRUE(require_sound(mesh).empty());
         EXPECT_EQ(topology(mesh).euler_characteristic, 0);
-        EXPECT_NEAR(total_area(mesh), 4.0 - width, 1e-12);
+        EXPECT_NEAR(area_of_positive_faces(mesh), 4.0 - width, 1e-12);
         EXPECT_GE(quality(mesh).min_angle, 25.0 * degree);
         EXPECT_LT(mesh.face_count(), 4000);
     }

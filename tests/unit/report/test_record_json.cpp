@@ -9,7 +9,7 @@
 namespace beltrami {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 Record record_of_map() {
     Record record;
@@ -20,9 +20,9 @@ Record record_of_map() {
 }
 
 TEST(RecordJson, KeysThatDoNotApplyAreAbsent) {
-    const Json json = Json::parse(to_json(record_of_map()));
+    const OrderedJson json = OrderedJson::parse(to_json(record_of_map()));
     EXPECT_EQ(json["schema"], 1);
-    EXPECT_EQ(json["source"], Json({{"vertices", 4}, {"faces", 2}}));
+    EXPECT_EQ(json["source"], OrderedJson({{"vertices", 4}, {"faces", 2}}));
     EXPECT_FALSE(json["map"].contains("k"));
     EXPECT_FALSE(json.contains("solve"));
     EXPECT_TRUE(json["warnings"].empty());
@@ -34,7 +34,7 @@ TEST(RecordJson, NumbersComeBackAndWhatIsNotFiniteIsNull) {
     record.map->k = 0.1 + 0.2;
     record.map->K_max = std::numeric_limits<double>::infinity();
     record.map->mean = std::numeric_limits<double>::quiet_NaN();
-    const Json json = Json::parse(to_json(record));
+    const OrderedJson json = OrderedJson::parse(to_json(record));
     EXPECT_EQ(json["map"]["k"].get<double>(), 0.1 + 0.2);
     EXPECT_TRUE(json["map"]["K_max"].is_null());
     EXPECT_TRUE(json["map"]["mu"]["mean"].is_null());
@@ -45,7 +45,7 @@ TEST(RecordJson, ListsAHundredPlacesAndCountsAll) {
     std::vector<int> faces(250);
     std::iota(faces.begin(), faces.end(), 0);
     record.warnings.push_back({WarningKind::flipped_faces, "\xff is no UTF-8", {Things::faces, faces}});
-    const Json details = Json::parse(to_json(record))["warning_details"][0];
+    const OrderedJson details = OrderedJson::parse(to_json(record))["warning_details"][0];
     EXPECT_EQ(details["kind"], "flipped_faces");
     EXPECT_EQ(details["of"], "faces");
     EXPECT_EQ(details["count"], 250);

@@ -11,7 +11,7 @@
 namespace beltrami {
 namespace {
 
-TargetDomain rectangle(double width, double height) {
+TargetDomain rectangle_target(double width, double height) {
     return target_domain(TargetCurve::polygon({{1, 1}, {1 + width, 1}, {1 + width, 1 + height}, {1, 1 + height}}), {});
 }
 
@@ -30,7 +30,7 @@ Correspondence corners(const Surface& source, const TargetDomain& target, const 
 
 TEST(OntoQuadrilateral, AffineMapsAreExact) {
     const Surface square(test::jittered_square(8));
-    const TargetDomain target = rectangle(3, 1.5);
+    const TargetDomain target = rectangle_target(3, 1.5);
     const Correspondence wanted = corners(square, target, {{0, 0}, {1, 0}, {1, 1}, {0, 1}});
     const auto direct = quadrilateral_onto_rectangle(square, *target_model(target, 0.1), wanted);
     ASSERT_TRUE(direct);
@@ -63,7 +63,7 @@ Mesh square_with_finger() {
 
 TEST(OntoQuadrilateral, ACrowdedDiskHasAMapWithoutFoldsInAProvedBracket) {
     const Surface source(square_with_finger());
-    const TargetDomain target = rectangle(1, 1);
+    const TargetDomain target = rectangle_target(1, 1);
     const Correspondence wanted = corners(source, target, {{0, 0}, {0.2, 0}, {0.2, 1}, {0, 1}});
     const ExtremalMap map = extremal_map(source, Constraints(target, wanted));
     EXPECT_EQ(map.iterations, 0);
@@ -79,9 +79,9 @@ TEST(OntoQuadrilateral, ACrowdedDiskHasAMapWithoutFoldsInAProvedBracket) {
 }
 
 TEST(OntoQuadrilateral, ModuliOfTargets) {
-    EXPECT_NEAR(target_modulus(rectangle(3, 1.5), {0, 3, 4.5, 7.5}).value_or(0), 2, 1e-12);
-    EXPECT_NEAR(target_modulus(rectangle(3, 1.5), {3, 4.5, 7.5, 0}).value_or(0), 0.5, 1e-12);
-    EXPECT_FALSE(target_modulus(rectangle(3, 1.5), {0.1, 3, 4.5, 7.5}));
+    EXPECT_NEAR(target_modulus(rectangle_target(3, 1.5), {0, 3, 4.5, 7.5}).value_or(0), 2, 1e-12);
+    EXPECT_NEAR(target_modulus(rectangle_target(3, 1.5), {3, 4.5, 7.5, 0}).value_or(0), 0.5, 1e-12);
+    EXPECT_FALSE(target_modulus(rectangle_target(3, 1.5), {0.1, 3, 4.5, 7.5}));
     const TargetDomain circle = target_domain(TargetCurve::circle(0, 2), {});
     const double quarter = std::acos(-1.0);  // of the length
     EXPECT_NEAR(target_modulus(circle, {0.3, 0.3 + quarter, 0.3 + 2 * quarter, 0.3 + 3 * quarter}).value_or(0), 1,

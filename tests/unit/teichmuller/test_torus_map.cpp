@@ -18,13 +18,13 @@ namespace {
 using test::parallel_and_meridian;
 using test::parallel_then_meridian;
 
-struct Pair {
+struct TorusPair {
     int source_nu, target_nu;
     Surface source, target;
     FlatTorus flat_source, flat_target;
 
     /// (R, r) = (2, 1) and (√2, 1), different meshes.
-    explicit Pair(int k)
+    explicit TorusPair(int k)
         : source_nu(4 * k),
           target_nu(5 * k),
           source(torus(2, 1, 4 * k, 2 * k)),
@@ -46,7 +46,7 @@ TEST(TorusMap, RevolutionToRevolutionInThreeMarkings) {
     const std::array<double, 3> exact{std::sqrt(3.0), 3.776668, (5 + std::sqrt(13.0)) / std::sqrt(12.0)};
     std::array<double, 3> before{};
     for (const int k : {4, 8, 16}) {
-        const Pair pair(k);
+        const TorusPair pair(k);
         const auto paths = parallel_and_meridian(pair.target_nu, 4 * k);
         const std::array<TorusMap, 3> maps{pair.map(paths[0], paths[1]),
                                            pair.map(paths[0], parallel_then_meridian(pair.target_nu, 4 * k, false)),
@@ -80,7 +80,7 @@ TEST(TorusMap, RevolutionToRevolutionInThreeMarkings) {
 }
 
 TEST(TorusMap, PlacesAreOnTheTarget) {
-    const Pair pair(6);
+    const TorusPair pair(6);
     const TorusMap map = torus_map(pair.source, pair.flat_source, pair.target, pair.flat_target);
     ASSERT_EQ(map.places.size(), static_cast<std::size_t>(pair.source.mesh.vertex_count()));
     for (int v = 0; v < pair.source.mesh.vertex_count(); ++v) {
@@ -106,7 +106,7 @@ TEST(TorusMap, OntoItselfIsTheIdentityWherePinned) {
 }
 
 TEST(TorusMap, TheNearestMarkingIsNoFartherThanAnyOther) {
-    const Pair pair(6);
+    const TorusPair pair(6);
     const TorusMap nearest = torus_map(pair.source, pair.flat_source, pair.target, pair.flat_target);
     EXPECT_NEAR(nearest.K, std::sqrt(3.0), 0.1);
     for (const int turns : {-2, -1, 0, 1, 2})
@@ -121,7 +121,7 @@ TEST(TorusMap, TheNearestMarkingIsNoFartherThanAnyOther) {
 }
 
 TEST(TorusMap, TheInverseHasTheSameDilatation) {
-    const Pair pair(6);
+    const TorusPair pair(6);
     const TorusMap there = torus_map(pair.source, pair.flat_source, pair.target, pair.flat_target);
     TorusMapOptions options;
     options.marking = TorusMarking(there.marking.cast<double>().inverse().array().round().cast<int>().matrix());

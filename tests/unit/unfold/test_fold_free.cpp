@@ -196,7 +196,7 @@ INSTANTIATE_TEST_SUITE_P(TrianglesAndQuads, Energy, testing::Bool(),
 // ---- untangling -----------------------------------------------------------------------------------------------------
 
 struct Lobes {
-    Surface source{disk(27)};  // 4374 triangles
+    Surface source{ringed_disk(27)};  // 4374 triangles
     BoundaryCondition boundary = prescribe(source, three_lobes);
     Eigen::VectorXcd harmonic = harmonic_map(source, boundary);
 };
@@ -245,7 +245,7 @@ TEST(FoldFreeMap, UntanglesNoise) {
 }
 
 TEST(FoldFreeMap, TurnsAReflectedFreeMapOver) {
-    const Surface source(disk(6));
+    const Surface source(ringed_disk(6));
     const Eigen::VectorXcd z = points(source.mesh);
     const FoldFreeMap result =
         fold_free_map(source, std::vector<Freedom>(z.size(), Freedom::free), zero_coefficient(source), z.conjugate());
@@ -279,7 +279,7 @@ TEST(FoldFreeMap, FindsTheAffineMapOfAConstantCoefficient) {
 struct TeichmuellerExample {
     static constexpr double k = 0.5;
     explicit TeichmuellerExample(int rings)
-        : source(disk(rings)), exact(source.mesh.vertex_count()), nu(source.operators.sample_count()) {
+        : source(ringed_disk(rings)), exact(source.mesh.vertex_count()), nu(source.operators.sample_count()) {
         const Eigen::VectorXcd z = points(source.mesh);
         for (Eigen::Index v = 0; v < z.size(); ++v) exact[v] = image(z[v]);
         for (int s = 0; s < source.operators.sample_count(); ++s) {
@@ -342,7 +342,7 @@ TEST(FoldFreeMap, LargePowersLowerTheLargestDilatation) {
 }
 
 TEST(FoldFreeMap, DoesNotDependOnUnits) {
-    const Surface source(disk(10));
+    const Surface source(ringed_disk(10));
     const BoundaryCondition boundary = prescribe(source, three_lobes);
     const std::vector<Freedom> freedom = freedoms(boundary, source);
     const Eigen::VectorXcd start = harmonic_map(source, boundary);
@@ -362,7 +362,7 @@ TEST(FoldFreeMap, DoesNotDependOnUnits) {
 // ---------------------------------------------------------------------------------------------
 
 TEST(FoldFreeMap, SaysWhenTheBoundaryRunsTheWrongWay) {
-    const Surface source(disk(6));
+    const Surface source(ringed_disk(6));
     const BoundaryCondition boundary = prescribe(source, [](Complex z) { return std::conj(z); });
     const FoldFreeMap result =
         fold_free_map(source, freedoms(boundary, source), zero_coefficient(source), harmonic_map(source, boundary));
@@ -403,7 +403,7 @@ TEST(FoldFreeMap, NamesFacesThatFixedVerticesFold) {
 }
 
 TEST(FoldFreeMap, GivesUpOnABoundaryThatCrossesItself) {
-    const Surface source(disk(8));
+    const Surface source(ringed_disk(8));
     // A small part of the boundary is drawn backwards; the area stays positive.
     const BoundaryCondition boundary = prescribe(source, [](Complex z) {
         const double t = std::arg(z);
@@ -426,7 +426,7 @@ void expect_error(Cause cause, const std::function<void()>& call) {
 }
 
 TEST(FoldFreeMap, RejectsImpossibleArguments) {
-    const Surface source(disk(2));
+    const Surface source(ringed_disk(2));
     const Eigen::VectorXcd z = points(source.mesh);
     const std::vector<Freedom> free(z.size(), Freedom::free);
     std::vector<Freedom> sliding = free;

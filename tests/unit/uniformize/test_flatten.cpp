@@ -20,6 +20,7 @@
 #include <beltrami/uniformize/flatten.h>
 #include <beltrami/uniformize/flatten_layout.h>
 
+#include "support/meshes.h"
 #include "support/real_mesh.h"
 
 namespace beltrami {
@@ -27,8 +28,8 @@ namespace {
 
 // ---- surfaces -------------------------------------------------------------------------------------------------------
 
-/// A disk of rings: 1 + 3·rings·(rings + 1) vertices, the boundary last, each at (radius ≤ 1, direction).
-Mesh disk(int rings, const std::function<Eigen::Vector3d(double, double)>& place) {
+/// A placed_disk of rings: 1 + 3·rings·(rings + 1) vertices, the boundary last, each at (radius ≤ 1, direction).
+Mesh placed_disk(int rings, const std::function<Eigen::Vector3d(double, double)>& place) {
     Mesh mesh;
     mesh.positions.resize(1 + 3 * rings * (rings + 1), 3);
     mesh.positions.row(0) = place(0, 0);
@@ -79,13 +80,6 @@ Eigen::Vector3d bumps(double x, double y) {
 }
 
 // ---- measures -------------------------------------------------------------------------------------------------------
-
-/// Largest distance after the best similarity (orientation kept), relative to the diameter of the target.
-double distance_up_to_similarity(const Eigen::VectorXcd& map, const Eigen::VectorXcd& target) {
-    const Eigen::VectorXcd a = map.array() - map.mean(), b = target.array() - target.mean();
-    const Complex factor = a.dot(b) / a.squaredNorm();
-    return (factor * a - b).cwiseAbs().maxCoeff() / (2 * b.cwiseAbs().maxCoeff());
-}
 
 /// Largest difference of edge and diagonal lengths within faces, between the surface and its image.
 double isometry_error(const Mesh& mesh, const Eigen::VectorXcd& image) {
@@ -152,7 +146,7 @@ Cause cause_of(const std::function<void()>& action) {
 // ---- contract -------------------------------------------------------------------------------------------------------
 
 TEST(Flatten, RefusesImpossibleInput) {
-    const Mesh sound = disk(2, cap);
+    const Mesh sound = placed_disk(2, cap);
     EXPECT_EQ(cause_of([&] { flatten(sound, with_tolerance(0)); }), Cause::bad_option);
     EXPECT_EQ(cause_of([&] { flatten(sound, with_iterations(0)); }), Cause::bad_option);
     EXPECT_EQ(cause_of([&] { flatten(sound, with_angles({1, 1, 1})); }), Cause::bad_boundary);
@@ -163,27 +157,27 @@ TEST(Flatten, RefusesImpossibleInput) {
     EXPECT_EQ(cause_of([&] { flatten(sound, with_angles(angles)); }), Cause::bad_boundary);
 
     EXPECT_EQ(cause_of([] { flatten(Mesh{Positions::Zero(3, 3), {}, {}}); }), Cause::bad_mesh);
-    Mesh closed = disk(1, cap);  // the hexagon's boundary pulled to a point
+    Mesh closed = placed_disk(1, cap);  // the hexagon's boundary pulled to a point
     closed.positions.conservativeResize(8, 3);
     closed.positions.row(7) << 0, 0, -1;
     for (int k = 0; k < 6; ++k) closed.faces.add({1 + (k + 1) % 6, 1 + k, 7});
     EXPECT_EQ(cause_of([&] { flatten(closed); }), Cause::bad_mesh);
-    Mesh ring = disk(3, cap), holed = ring;
+    Mesh ring = placed_disk(3, cap), holed = ring;
     holed.faces = {};
     for (int f = 6; f < ring.face_count(); ++f) holed.faces.add(ring.faces[f]);
     EXPECT_EQ(cause_of([&] { flatten(holed); }), Cause::bad_mesh);
-    Mesh pair = disk(1, cap);
+    Mesh pair = placed_disk(1, cap);
     pair.positions.conservativeResize(14, 3);
     pair.positions.bottomRows(7) = pair.positions.topRows(7);
     for (int k = 0; k < 6; ++k) pair.faces.add({7, 8 + k, 8 + (k + 1) % 6});
     EXPECT_EQ(cause_of([&] { flatten(pair); }), Cause::bad_mesh);
-    Mesh undefined = disk(2, cap);
+    Mesh undefined = placed_disk(2, cap);
     undefined.positions(4, 1) = std::nan("");
     EXPECT_EQ(cause_of([&] { flatten(undefined); }), Cause::bad_mesh);
 }
 
 TEST(Flatten, SaysWhenItDoesNotConverge) {
-    EXPECT_EQ(cause_of([] { flatten(disk(10, cap), with_iterations(1)); }), Cause::not_solved);
+    EXPECT_EQ(cause_of([] { flatten(placed_disk(10, cap), with_iterations(1)); }), Cause::not_solved);
 }
 
 TEST(Flatten, APlanarMeshIsItsOwnFlattening) {
@@ -273,8 +267,8 @@ TEST(Flatten, SurfacesOfRevolutionConvergeWithSecondOrder) {
         return r / (1 + s) * std::exp(s);
     };
     const auto error = [](int rings, const auto& surface, const auto& radius) {
-        const Mesh mesh = disk(rings, surface);
-        const Mesh exact = disk(rings, [&](double rho, double phi) {
+        const Mesh mesh = placed_disk(rings, surface);
+        const Mesh exact = placed_disk(rings, [&](double rho, double phi) {
             return Eigen::Vector3d(radius(rho) * std::cos(phi), radius(rho) * std::sin(phi), 0);
         });
         const Flattening f = flatten(mesh);
@@ -284,7 +278,7 @@ TEST(Flatten, SurfacesOfRevolutionConvergeWithSecondOrder) {
         // The boundary keeps its lengths, so the scale is right as well: conformal radius 1 at the boundary.
         const Complex outer = f.positions[mesh.vertex_count() - 1] - f.positions[0];
         EXPECT_NEAR(std::abs(outer), mesh.positions.bottomRows(1).leftCols(2).norm(), 2.0 / (rings * rings));
-        return distance_up_to_similarity(f.positions, plane(exact));
+        return test::distance_up_to_similarity(f.positions, plane(exact));
     };
     // Stereographic projection scales chords exactly by factors at their ends: nothing is left to discretise.
     EXPECT_LT(error(16, cap, cap_radius), 1e-8);
@@ -329,11 +323,11 @@ TEST(ScaleFactors, UndoAMoebiusTransformationExactly) {
     EXPECT_GT(found.flips, 100);
     EXPECT_LE(found.iterations, 10);
     EXPECT_LT((found.u - exact).lpNorm<Eigen::Infinity>(), 1e-10);
-    EXPECT_LT(distance_up_to_similarity(lay_out(triangulation, found.u).positions, z), 1e-11);
+    EXPECT_LT(test::distance_up_to_similarity(lay_out(triangulation, found.u).positions, z), 1e-11);
 }
 
 TEST(Flatten, EqualAnglesGiveARegularPolygon) {
-    const Mesh mesh = disk(6, cap);
+    const Mesh mesh = placed_disk(6, cap);
     const std::size_t n = 36;
     const Flattening f = flatten(mesh, with_angles(std::vector<double>(n, (n - 2) * kPi / n)));
     EXPECT_LT(f.residual, 1e-10);
@@ -398,7 +392,7 @@ TEST(Flatten, DoesNotDependOnPlaceSizeOrNumbering) {
         Mesh moved = mesh;
         moved.positions = (scale * mesh.positions * turn.transpose()).rowwise() + scale * Eigen::RowVector3d(3, -8, 5);
         const Flattening f = flatten(moved);
-        EXPECT_LT(distance_up_to_similarity(f.positions, original.positions), 1e-9);
+        EXPECT_LT(test::distance_up_to_similarity(f.positions, original.positions), 1e-9);
         EXPECT_LT((f.log_scale - original.log_scale).lpNorm<Eigen::Infinity>(), 1e-9);
         EXPECT_NEAR(std::abs(f.positions[40] - f.positions[7]) / scale,
                     std::abs(original.positions[40] - original.positions[7]), 1e-9);
@@ -418,7 +412,7 @@ TEST(Flatten, DoesNotDependOnPlaceSizeOrNumbering) {
     const Flattening f = flatten(shuffled);
     Eigen::VectorXcd back(mesh.vertex_count());
     for (int v = 0; v < mesh.vertex_count(); ++v) back[v] = f.positions[renamed[v]];
-    EXPECT_LT(distance_up_to_similarity(back, original.positions), 1e-9);
+    EXPECT_LT(test::distance_up_to_similarity(back, original.positions), 1e-9);
 }
 
 /// A faceted roof on an n×n lattice, whose facets hold many coplanar triangles; `flips` random flips inside the facets
@@ -459,7 +453,7 @@ TEST(Flatten, DependsOnTheSurfaceAndNotOnItsTriangles) {
     const Flattening good = flatten(roof(12, 0)), bad = flatten(roof(12, 400));
     EXPECT_GT(bad.flips, good.flips + 50);
     EXPECT_LT(bad.residual, 1e-10);
-    EXPECT_LT(distance_up_to_similarity(bad.positions, good.positions), 1e-9);
+    EXPECT_LT(test::distance_up_to_similarity(bad.positions, good.positions), 1e-9);
     EXPECT_LT((bad.log_scale - good.log_scale).lpNorm<Eigen::Infinity>(), 1e-9);
 }
 
@@ -467,8 +461,8 @@ TEST(Flatten, AFlatQuadIsTheSameAsItsTriangles) {
     const auto prism = [](double x, double y) {
         return Eigen::Vector3d(x, 2 * y + 0.3 * x, std::abs(x - 0.5) + 0.2 * x * x);
     };
-    EXPECT_LT(distance_up_to_similarity(flatten(grid(8, 5, true, prism)).positions,
-                                        flatten(grid(8, 5, false, prism)).positions),
+    EXPECT_LT(test::distance_up_to_similarity(flatten(grid(8, 5, true, prism)).positions,
+                                              flatten(grid(8, 5, false, prism)).positions),
               1e-12);
 }
 
@@ -488,7 +482,7 @@ TEST(Flatten, JitterAndNeedlesConverge) {
 
 TEST(Flatten, ExtremeScalesConverge) {
     // A finger thirty times as long as thick: e^u falls like exp(−2 length/radius · ...) towards its tip.
-    const Mesh finger = disk(48, [](double rho, double phi) {
+    const Mesh finger = placed_disk(48, [](double rho, double phi) {
         const double r = rho < 0.5 ? 0.1 * std::min(1.0, 16 * rho) : 0.1 + 1.8 * (rho - 0.5);
         const double z = rho < 0.5 ? 6 * (0.5 - rho) : 0;
         return Eigen::Vector3d(r * std::cos(phi), r * std::sin(phi), z);

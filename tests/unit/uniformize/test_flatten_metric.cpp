@@ -19,13 +19,6 @@
 namespace beltrami {
 namespace {
 
-/// Largest distance after the best similarity (orientation kept), relative to the size of the target.
-double distance_up_to_similarity(const Eigen::VectorXcd& map, const Eigen::VectorXcd& target) {
-    const Eigen::VectorXcd a = map.array() - map.mean(), b = target.array() - target.mean();
-    const Complex factor = a.dot(b) / a.squaredNorm();
-    return (factor * a - b).cwiseAbs().maxCoeff() / (2 * b.cwiseAbs().maxCoeff());
-}
-
 /// The same faces with every vertex of the plane moved.
 Mesh deformed(Mesh mesh, const std::function<Eigen::Vector3d(double, double)>& place) {
     const Positions flat = mesh.positions;
@@ -89,7 +82,7 @@ TEST(FlattenInMetric, IsTheFlatteningOfTheMeshThatHasTheMetric) {
                 if (regular) options.boundary_angles.assign(n, std::numbers::pi * (1 - 2 / static_cast<double>(n)));
                 const Flattening expected = flatten(b, options);
                 const Flattening found = flatten(a, corner_positions(b), options);
-                EXPECT_LT(distance_up_to_similarity(found.positions, expected.positions), 1e-9);
+                EXPECT_LT(test::distance_up_to_similarity(found.positions, expected.positions), 1e-9);
                 EXPECT_LT((found.log_scale - expected.log_scale).lpNorm<Eigen::Infinity>(), 1e-9);
                 EXPECT_NEAR(std::abs(found.positions[0] - found.positions[1]),
                             std::abs(expected.positions[0] - expected.positions[1]), 1e-9);
@@ -104,7 +97,7 @@ TEST(FlattenInMetric, DoesNotDependOnWhereTheFacesLie) {
     for (const Mesh& a : {test::mixed_square(12), test::jittered_square(10)}) {
         const Mesh b = deformed(a, paraboloid);
         const Flattening expected = flatten(b), found = flatten(a, scattered(b));
-        EXPECT_LT(distance_up_to_similarity(found.positions, expected.positions), 1e-9);
+        EXPECT_LT(test::distance_up_to_similarity(found.positions, expected.positions), 1e-9);
         EXPECT_LT((found.log_scale - expected.log_scale).lpNorm<Eigen::Infinity>(), 1e-9);
         EXPECT_TRUE(found.flipped.empty());
     }
@@ -157,7 +150,7 @@ TEST(FlattenInMetric, ADisputedEdgeHasTheMeanLength) {
     Positions rounded = scattered(b);
     rounded = ((rounded.array() * 1e7).round() * 1e-7).eval();
     const Flattening f = flatten(b, rounded);
-    EXPECT_LT(distance_up_to_similarity(f.positions, flatten(b).positions), 1e-6);
+    EXPECT_LT(test::distance_up_to_similarity(f.positions, flatten(b).positions), 1e-6);
     EXPECT_LT(f.residual, 1e-10);
 }
 
@@ -166,7 +159,7 @@ TEST(FlattenInMetric, SizeDoesNotMatter) {
     const Flattening expected = flatten(b);
     for (const double scale : {1e-120, 1e120}) {
         const Flattening f = flatten(b, Positions(scale * corner_positions(b)));
-        EXPECT_LT(distance_up_to_similarity(f.positions / scale, expected.positions), 1e-9);
+        EXPECT_LT(test::distance_up_to_similarity(f.positions / scale, expected.positions), 1e-9);
         EXPECT_LT((f.log_scale - expected.log_scale).lpNorm<Eigen::Infinity>(), 1e-9);
     }
 }
@@ -181,7 +174,7 @@ TEST(FlattenInMetric, AReflexQuadStaysAsItIs) {
     const Flattening f = flatten(mesh, corners);
     Eigen::VectorXcd exact(4);
     for (int i = 0; i < 4; ++i) exact[i] = {corners(i, 0), corners(i, 1)};
-    EXPECT_LT(distance_up_to_similarity(f.positions, exact), 1e-14);
+    EXPECT_LT(test::distance_up_to_similarity(f.positions, exact), 1e-14);
     EXPECT_TRUE(f.flipped.empty());
 }
 
