@@ -17,7 +17,7 @@ function(beltrami_page folder result)
     add_custom_command(OUTPUT ${work}/packages.stamp VERBATIM DEPENDS ${packages} COMMENT "Fetching the page's npm packages"
         COMMAND ${CMAKE_COMMAND} -E make_directory ${work}
         COMMAND ${CMAKE_COMMAND} -E copy ${packages} ${work}
-        COMMAND ${NPM} ci --silent --no-audit --no-fund --prefix ${work}
+        COMMAND ${NPM} ci --prefer-offline --silent --no-audit --no-fund --prefix ${work}
         COMMAND ${CMAKE_COMMAND} -E touch ${work}/packages.stamp)
     add_custom_command(OUTPUT ${work}/dist/index.html VERBATIM DEPENDS ${work}/packages.stamp ${sources}
         COMMENT "Bundling the page"
