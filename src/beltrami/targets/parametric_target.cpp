@@ -42,7 +42,7 @@ ParametricTarget::Jet turned(double u, const Profile& p) {
 
 ParametricTarget::ParametricTarget(Function function, Range u, Range v, SlideCurves boundary,
                                    std::optional<Eigen::Vector2d> unit)
-    : function_(std::move(function)), u_(u), v_(v), boundary_(std::move(boundary)), unit_(unit) {
+    : function_(std::move(function)), u_(u), v_(v), boundary_(std::move(boundary)), unit_(std::move(unit)) {
     for (int i = 0; i < kGrid; ++i)
         for (int j = 0; j < kGrid; ++j)
             grid_.push_back(

@@ -60,7 +60,7 @@ SphereIteration settle(const Surface& surface, SphereProblem& problem, const Pos
     }
     HamiltonIteration::Options how = iteration_options(options);
     if (!landmarks.soft() && !(options.tolerance > 0)) how.within_bracket = kWithinSphereBracket;
-    const HamiltonIteration iteration = problem.settle(step, std::move(how));
+    const HamiltonIteration iteration = problem.settle(step, how);
     result.last = iteration.last_step();
     result.held_up = step.last_length() < kHeldUp && result.last.k > kSphereTolerance;
     result.converged = iteration.converged();
