@@ -11,7 +11,6 @@
 #include <nlohmann/json.hpp>
 
 #include <beltrami/base/error.h>
-#include <beltrami/flow/led_map.h>
 #include <beltrami/forms/flat_torus.h>
 #include <beltrami/io/number_lists.h>
 #include <beltrami/registration/natural_start.h>
@@ -303,14 +302,12 @@ SurfaceFlowMap AlongTarget::flow(const Request& request, const Target& target, c
 SurfaceFlowMap AlongTarget::flow_with_curves(const Request& request, const Target& target,
                                              const std::vector<CurveOnto>& curves, NaturalStart start,
                                              SurfaceFlowRecord& record, Warnings& warnings) const {
-    HeldCurves held = start.source ? held_curves(std::move(*start.source), target, curves, start.positions)
-                                   : held_curves(request.source.mesh, target, curves, start.positions);
+    HeldCurves held = held_curves(request.source.mesh, target, curves, std::move(start));
     if (request.onto.domain()) require_inside(*request.onto.domain(), held);
     const Surface source(held.source.mesh);
     pin(request, held.wanted, held.constraints);
     hold_boundary(source, request.boundary, target, held.wanted, held.constraints);
-    LedMap led = led_map(source, target, held.constraints, {nearest_points(target, held.start), {}},
-                         target_map(source, target, held.constraints, held.wanted));
+    LedMap led = led_start(source, target, held);
     if (led.flips > 0)
         warnings.push_back({WarningKind::start, fmt::format("the start that obeys the curves has {} flipped",
                                                             counted(led.flips, "face", "faces"))});

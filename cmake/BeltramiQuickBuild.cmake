@@ -1,5 +1,4 @@
-# Compiles COUNT files of a target at a time (BELTRAMI_QUICK_BUILD): what they share is read and instantiated once for all of
-# them.
+# Compiles COUNT files of a target at a time (BELTRAMI_QUICK_BUILD): what they share is read and instantiated once for all.
 function(beltrami_few_at_a_time target count)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ${BELTRAMI_QUICK_BUILD} UNITY_BUILD_BATCH_SIZE ${count})
 endfunction()

@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 
-#include <beltrami/flow/led_map.h>
 #include <beltrami/mesh/submesh.h>
 #include <beltrami/registration/held_curves.h>
 #include <beltrami/registration/natural_start.h>
@@ -92,12 +91,9 @@ struct AlongCurves {
 AlongCurves flow_along_curves(const Surface& source, const Target& target, const TargetKind& kind,
                               const std::vector<CurveOnto>& curves) {
     const double begun = seconds_now();
-    NaturalStart start = natural_start(source, target, kind, curves);
-    HeldCurves held = start.source ? held_curves(std::move(*start.source), target, curves, start.positions)
-                                   : held_curves(source.mesh, target, curves, start.positions);
+    HeldCurves held = held_curves(source.mesh, target, curves, natural_start(source, target, kind, curves));
     Surface divided(held.source.mesh);
-    LedMap led = led_map(divided, target, held.constraints, {nearest_points(target, held.start), {}},
-                         target_map(divided, target, held.constraints, held.wanted));
+    LedMap led = led_start(divided, target, held);
     const int flipped = led.flips;
     SurfaceFlowMap flow = least_lp_map(divided, target, {2, {}}, held.constraints, std::move(led.map));
     return {std::move(held), std::move(divided), std::move(flow), flipped, seconds_now() - begun};

@@ -9,7 +9,6 @@
 
 #include <beltrami/applications/handled_surface.h>
 #include <beltrami/applications/held_maps.h>
-#include <beltrami/applications/unrolled_extremal.h>
 #include <beltrami/base/error.h>
 #include <beltrami/locate/point_at.h>
 #include <beltrami/mesh/planar.h>
@@ -19,6 +18,7 @@
 #include <beltrami/space/uniform_map.h>
 #include <beltrami/space/unrolled_map.h>
 #include <beltrami/targets/parametric_target.h>
+#include <beltrami/teichmuller/extremal_unrolled.h>
 #include <beltrami/unfold/fold_free.h>
 
 namespace beltrami {

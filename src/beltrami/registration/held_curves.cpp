@@ -263,6 +263,11 @@ HeldCurves held_curves(MeshWithCurves source, const Target& target, std::span<co
     return result;
 }
 
+LedMap led_start(const Surface& with_curves, const Target& target, const HeldCurves& held) {
+    return led_map(with_curves, target, held.constraints, {nearest_points(target, held.start), {}},
+                   target_map(with_curves, target, held.constraints, held.wanted));
+}
+
 Eigen::VectorXcd mu_along_curves(const Surface& source, const MeshWithCurves& divided, const Surface& with_curves,
                                  const Eigen::VectorXcd& mu) {
     const Eigen::VectorXcd along_edges = mu_along_first_edge(source, mu),

@@ -5,6 +5,7 @@
 
 #include <beltrami/constraints/target_constraints.h>
 #include <beltrami/curves/surface_curve.h>
+#include <beltrami/flow/led_map.h>
 #include <beltrami/operators/surface.h>
 
 namespace beltrami BELTRAMI_PUBLIC {
@@ -46,7 +47,7 @@ struct HeldCurves {
 };
 
 /// A map to a target made ready for curves: faces are divided along them, vertices of curves held. The way from start
-/// to wanted is that of led_map().
+/// to wanted is that of led_start().
 /// @param source that passes the diagnosis, in space or in the plane
 /// @param target kept by reference
 /// @param start  #V×3 or #V×2 of the source, near the target
@@ -56,6 +57,11 @@ HeldCurves held_curves(const Mesh& source, const Target& target, std::span<const
 /// The same of a source that is divided already, and a map of all its vertices.
 HeldCurves held_curves(MeshWithCurves source, const Target& target, std::span<const CurveOnto> curves,
                        const Positions& start);
+
+/// The start that obeys the curves: led (led_map) from held.start to held.wanted, each at its nearest points.
+/// @param with_curves the surface of held.source
+/// @param held        whose constraints may be more than its curves (pins, boundaries)
+LedMap led_start(const Surface& with_curves, const Target& target, const HeldCurves& held);
 
 /// Coefficients of a surface for its faces divided along curves: every face that was divided passes on its own.
 /// @param mu #S in the samples' frames of the surface

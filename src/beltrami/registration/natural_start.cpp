@@ -163,4 +163,10 @@ NaturalStart natural_start(const Surface& source, const Target& target, const Ta
                 "give a start map: a mesh of the source's faces whose vertices stand near their images");
 }
 
+HeldCurves held_curves(const Mesh& source, const Target& target, std::span<const CurveOnto> curves,
+                       NaturalStart start) {
+    return start.source ? held_curves(std::move(*start.source), target, curves, start.positions)
+                        : held_curves(source, target, curves, start.positions);
+}
+
 }  // namespace beltrami

@@ -36,4 +36,8 @@ struct TargetKind {
 NaturalStart natural_start(const Surface& source, const Target& target, const TargetKind& kind,
                            std::span<const CurveOnto> curves = {});
 
+/// A start made ready for curves, as it is divided along them already or not.
+/// @param source that of the start
+HeldCurves held_curves(const Mesh& source, const Target& target, std::span<const CurveOnto> curves, NaturalStart start);
+
 }  // namespace beltrami

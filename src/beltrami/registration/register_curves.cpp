@@ -153,10 +153,10 @@ Positions on_curves(const Wanted& wanted, const MeshWithCurves& source, const Po
 
 /// Where a start stays folded: of it and those that are led to the same places, from where curves were not held and,
 /// between closed surfaces, from the map of the landmarks, the one with the fewest flips.
-TargetMap led_start(const Surface& source, const Surface& with_curves, const Wanted& wanted,
-                    const MeshWithCurves& curved, TargetMap start, const Positions& unheld,
-                    std::span<const SurfaceLandmark> landmarks, std::span<const CurvePair> curves,
-                    const CurveRegistrationOptions& options) {
+TargetMap least_flipped_start(const Surface& source, const Surface& with_curves, const Wanted& wanted,
+                              const MeshWithCurves& curved, TargetMap start, const Positions& unheld,
+                              std::span<const SurfaceLandmark> landmarks, std::span<const CurvePair> curves,
+                              const CurveRegistrationOptions& options) {
     const Target& target = wanted.model().target();
     int least = flipped_samples(with_curves.operators, start);
     TargetMap best = start;
@@ -298,8 +298,8 @@ void try_ways(const Task& task, std::vector<Curved> ways, const std::optional<Po
 
 /// Where a start stays folded: of it and those that are led to the same places the one with the fewest flips.
 Ready led(const Task& task, Ready from) {
-    from.begin = led_start(task.source, Surface(from.source.mesh), from.wanted, from.source, std::move(from.begin),
-                           from.unheld, task.landmarks, task.curves, task.options);
+    from.begin = least_flipped_start(task.source, Surface(from.source.mesh), from.wanted, from.source,
+                                     std::move(from.begin), from.unheld, task.landmarks, task.curves, task.options);
     return from;
 }
 

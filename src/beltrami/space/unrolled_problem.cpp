@@ -40,8 +40,7 @@ UnrolledProblem::UnrolledProblem(const Mesh& source, const CornerElements& eleme
       turns_(places.turns),
       place_(places_of_moving(elements.operators, fixed)),
       map_(places.vertices),
-      system_(system_of(elements.operators, place_, 1)),
-      steps_(system_of(elements.operators, place_, 2)) {}
+      system_(system_of(elements.operators, place_, 1)) {}
 
 Eigen::VectorXcd UnrolledProblem::corners() const {
     Eigen::VectorXcd result = turns_;
@@ -81,8 +80,10 @@ void UnrolledProblem::solve(const Eigen::VectorXcd& nu) {
 
 Eigen::VectorXcd UnrolledProblem::step(const TargetEnergy& energy) {
     const MapDerivatives map = derivatives();
-    steps_.clear();
-    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(steps_.unknown_count());
+    if (!steps_) steps_.emplace(system_of(operators_, place_, 2));
+    ElementSystem& system = *steps_;
+    system.clear();
+    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(system.unknown_count());
     for (int s = 0; s < operators_.sample_count(); ++s) {
         const auto stencil = operators_.stencil(s);
         if (std::all_of(stencil.begin(), stencil.end(), [&](int v) { return place_[v] < 0; })) continue;
@@ -98,11 +99,11 @@ Eigen::VectorXcd UnrolledProblem::step(const TargetEnergy& energy) {
             for (std::size_t j = 0; j <= i; ++j)
                 hessian[entry++] = term.along * v[i].real() * v[j].real() + term.across * v[i].imag() * v[j].imag();
         }
-        steps_.add(s, hessian);
+        system.add(s, hessian);
     }
-    steps_.scale_diagonal(1 + kStepShift);
-    steps_.factorize();
-    const Eigen::VectorXd change = steps_.solve(gradient);
+    system.scale_diagonal(1 + kStepShift);
+    system.factorize();
+    const Eigen::VectorXd change = system.solve(gradient);
     Eigen::VectorXcd way = Eigen::VectorXcd::Zero(map_.size());
     for (std::size_t v = 0; v < place_.size(); ++v)
         if (const int i = place_[v]; i >= 0)

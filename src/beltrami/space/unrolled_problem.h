@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <beltrami/linear/element_system.h>
@@ -31,7 +32,9 @@ class UnrolledProblem {
     /// @pre the energy is finite, but where all corners of a sample are fixed
     /// @throw Error not_solved
     Eigen::VectorXcd step(const TargetEnergy& energy);
-    int factorization_count() const { return system_.factorization_count() + steps_.factorization_count(); }
+    int factorization_count() const {
+        return system_.factorization_count() + (steps_ ? steps_->factorization_count() : 0);
+    }
 
   private:
     Eigen::VectorXcd corners() const;  // #corners where the faces lie
@@ -42,8 +45,8 @@ class UnrolledProblem {
     Eigen::VectorXcd turns_;
     std::vector<int> place_;  // #V among those that move
     Eigen::VectorXcd map_;
-    ElementSystem system_;  // of one coordinate
-    ElementSystem steps_;   // of both
+    ElementSystem system_;                // of one coordinate
+    std::optional<ElementSystem> steps_;  // of both, from the first step on
 };
 
 }  // namespace beltrami

@@ -32,9 +32,6 @@ constexpr int kFirstDegree = 8, kFirstMixedDegree = 12, kLargestMixedDegree = 24
 /// length L J^-n turns by 2n √(e/L): by no more than so many radians, where the mesh is to resolve it.
 constexpr int kMostSlitPowers = 60, kFirstSlitPowers = 12;
 constexpr double kTurnAtEnd = 2;
-/// Around a hole with prescribed values, edges for each power of r/(z − c).
-constexpr int kEdgesPerMixedPower = 6;
-constexpr int kLeastMixedPower = 3, kMostMixedPower = 16;
 
 /// Boundary vertices that are held, of all loops.
 std::vector<int> held_on_boundary(const Surface& source, const MixedBoundary& boundary) {
@@ -162,10 +159,7 @@ AdmissibleDifferentials mixed_differentials(const Surface& source, const CircleD
     result.singularities = mixed.singularities();
     std::vector<int> powers;
     powers.reserve(domain.holes.size());
-    for (const RoundHole& hole : domain.holes)
-        powers.push_back(
-            std::clamp(static_cast<int>(source.topology.boundary_loops[hole.loop].size()) / kEdgesPerMixedPower,
-                       kLeastMixedPower, kMostMixedPower));
+    for (const RoundHole& hole : domain.holes) powers.push_back(powers_of_hole(source, hole.loop));
     int largest = PolynomialSpace::largest_degree(source.operators.sample_count()), first = kFirstDegree;
     if (SlitSpace::describes(mixed) && !most) {
         const auto slits = static_cast<int>(mixed.loops[0].transitions.size()) / 2;

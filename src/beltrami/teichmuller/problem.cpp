@@ -16,9 +16,6 @@ namespace beltrami {
 
 namespace {
 
-/// Around a hole, edges for each power of r/(z − c).
-constexpr int kEdgesPerPower = 6;
-constexpr int kLeastPower = 3, kMostPower = 16;
 /// Poles cluster towards a corner from this far, on a hole as part of its radius, to this part of an edge.
 constexpr double kReach = 1.0, kHoleReach = 0.8, kFinest = 0.4;
 /// A corner with fewer edges to the next one is not resolved, and gets no poles.
@@ -304,10 +301,8 @@ HeldVertices held_vertices(const Surface& source, const Chart& chart, const Boun
 Singularities singularities_of(const Surface& source, const Chart& chart, const BoundaryCondition& boundary,
                                const std::vector<BoundaryCorner>& corners, const Eigen::VectorXcd& map) {
     Singularities result;
-    for (const Chart::Hole& hole : chart.holes) {
-        const int edges = static_cast<int>(source.topology.boundary_loops[hole.loop].size());
-        result.holes.push_back({hole.centre, hole.radius, std::clamp(edges / kEdgesPerPower, kLeastPower, kMostPower)});
-    }
+    for (const Chart::Hole& hole : chart.holes)
+        result.holes.push_back({hole.centre, hole.radius, powers_of_hole(source, hole.loop)});
     const ChartDomain domain(source, chart);
     add_inner(source, chart, boundary, domain, result);
     const HeldVertices held = held_vertices(source, chart, boundary, map);

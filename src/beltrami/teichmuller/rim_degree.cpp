@@ -9,6 +9,8 @@ namespace {
 
 constexpr double kEdgesPerTurn = 5;
 constexpr int kLeastDegree = 4;
+constexpr int kEdgesPerPower = 6;
+constexpr int kLeastPower = 3, kMostPower = 16;
 
 }  // namespace
 
@@ -21,6 +23,11 @@ int degree_of_rim(const Surface& source, const Chart& chart) {
         squares += edge * edge;
     }
     return std::max(kLeastDegree, static_cast<int>(2 * std::numbers::pi / (kEdgesPerTurn * squares / length)));
+}
+
+int powers_of_hole(const Surface& source, int loop) {
+    return std::clamp(static_cast<int>(source.topology.boundary_loops[loop].size()) / kEdgesPerPower, kLeastPower,
+                      kMostPower);
 }
 
 }  // namespace beltrami

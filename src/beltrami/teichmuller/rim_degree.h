@@ -9,4 +9,8 @@ namespace beltrami {
 /// @pre the outer loop lies on the unit circle of the chart
 int degree_of_rim(const Surface& source, const Chart& chart);
 
+/// Powers of r/(z − c) of φ that the boundary of a hole resolves, by its edges.
+/// @param loop of the source
+int powers_of_hole(const Surface& source, int loop);
+
 }  // namespace beltrami

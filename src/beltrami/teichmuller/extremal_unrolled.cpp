@@ -1,4 +1,4 @@
-#include <beltrami/applications/unrolled_extremal.h>
+#include <beltrami/teichmuller/extremal_unrolled.h>
 
 #include <algorithm>
 #include <memory>
@@ -16,16 +16,16 @@ namespace beltrami {
 namespace {
 
 /// Edges of the shorter loop to a turn of e^{inw}.
-constexpr int kEdgesPerTurn = 3;
-constexpr int kLeastDegree = 3, kMostDegree = 16;
-constexpr double kTolerance = 1e-3, kToleranceOfK = 1e-5;
-constexpr int kMostIterations = 40;
-constexpr int kClusters = 1500;
+constexpr int kEdgesPerUnrolledTurn = 3;
+constexpr int kLeastUnrolledDegree = 3, kMostUnrolledDegree = 16;
+constexpr double kUnrolledTolerance = 1e-3, kUnrolledToleranceOfK = 1e-5;
+constexpr int kMostUnrolledIterations = 40;
+constexpr int kUnrolledClusters = 1500;
 
-int degree_of(const Surface& source) {
+int degree_of_strip(const Surface& source) {
     const auto& loops = source.topology.boundary_loops;
     const int edges = static_cast<int>(std::min(loops[0].size(), loops[1].size()));
-    return std::clamp(edges / kEdgesPerTurn, kLeastDegree, kMostDegree);
+    return std::clamp(edges / kEdgesPerUnrolledTurn, kLeastUnrolledDegree, kMostUnrolledDegree);
 }
 
 }  // namespace
@@ -36,12 +36,12 @@ ExtremalMap extremal_unrolled_map(const Surface& source, const CornerElements& e
     corners.operators = elements.operators;
     const AnnulusStrip strip = annulus_strip(source, 0);
     const auto chart = std::make_shared<const Chart>(make_atlas(corners, strip.corners));
-    CoefficientStep coefficient_step(corners, *chart, {}, 0, kClusters);
+    CoefficientStep coefficient_step(corners, *chart, {}, 0, kUnrolledClusters);
     UnrolledMapStep step(source.mesh, elements, places, fixed);
     HamiltonIteration::Options options;
-    options.tolerance = kTolerance;
-    options.k_tolerance = kToleranceOfK;
-    options.max_iterations = kMostIterations;
+    options.tolerance = kUnrolledTolerance;
+    options.k_tolerance = kUnrolledToleranceOfK;
+    options.max_iterations = kMostUnrolledIterations;
     options.anderson_window = 0;
     options.grow_first = options.grow_last = false;
     options.progress = progress;
@@ -49,7 +49,7 @@ ExtremalMap extremal_unrolled_map(const Surface& source, const CornerElements& e
     HamiltonState state;
     // From its values at the samples: along a strip φ falls to a thousandth of its mean and less, of which the c-step
     // rounds off less where it is tabulated.
-    const auto space = std::make_shared<const StripSpace>(degree_of(source), strip.height);
+    const auto space = std::make_shared<const StripSpace>(degree_of_strip(source), strip.height);
     iteration.run(state, std::make_unique<TabulatedSpace>(space->generators({chart->positions, chart->derivatives}),
                                                           Coefficients::complex));
 
