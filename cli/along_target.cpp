@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <beltrami/base/counted.h>
 #include <beltrami/base/error.h>
 #include <beltrami/forms/flat_torus.h>
 #include <beltrami/io/number_lists.h>
@@ -20,7 +21,6 @@
 
 #include "parse.h"
 #include "space_target.h"
-#include "words.h"
 
 namespace beltrami::cli {
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <beltrami/base/counted.h>
 #include <beltrami/base/error.h>
 #include <beltrami/io/atomic_file.h>
 #include <beltrami/io/number_lists.h>
@@ -11,7 +12,6 @@
 
 #include "command.h"
 #include "place_file.h"
-#include "words.h"
 
 namespace beltrami::cli {
 

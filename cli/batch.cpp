@@ -13,6 +13,7 @@
 #include <fstream>
 #include <sstream>
 
+#include <beltrami/base/counted.h>
 #include <beltrami/base/error.h>
 #include <beltrami/base/parallel.h>
 #include <beltrami/io/atomic_file.h>
@@ -20,7 +21,6 @@
 #include "batch_jobs.h"
 #include "batch_page.h"
 #include "command.h"
-#include "words.h"
 
 namespace beltrami::cli {
 

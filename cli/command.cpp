@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdio>
 
+#include <beltrami/base/counted.h>
 #include <beltrami/base/error.h>
 #include <beltrami/base/parallel.h>
 #include <beltrami/io/atomic_file.h>
@@ -14,8 +15,6 @@
 #include <beltrami/report/page.h>
 #include <beltrami/report/record_json.h>
 #include <beltrami/report/record_text.h>
-
-#include "words.h"
 
 namespace beltrami::cli {
 

@@ -8,12 +8,12 @@
 
 #include <fmt/format.h>
 
+#include <beltrami/base/counted.h>
 #include <beltrami/base/error.h>
 #include <beltrami/locate/point_at.h>
 
 #include "landmark_options.h"
 #include "place_file.h"
-#include "words.h"
 
 namespace beltrami::cli {
 

@@ -2,6 +2,7 @@
 #include <iterator>
 
 #include <beltrami/applications/deform.h>
+#include <beltrami/base/counted.h>
 #include <beltrami/base/error.h>
 
 #include "command.h"
@@ -10,7 +11,6 @@
 #include "page.h"
 #include "space_input.h"
 #include "space_target.h"
-#include "words.h"
 
 namespace beltrami::cli {
 

@@ -1,5 +1,6 @@
 #include <optional>
 
+#include <beltrami/base/counted.h>
 #include <beltrami/base/error.h>
 #include <beltrami/charts/fold_free_disk.h>
 #include <beltrami/charts/round_disk.h>
@@ -10,7 +11,6 @@
 #include "mesh_input.h"
 #include "output.h"
 #include "page.h"
-#include "words.h"
 
 namespace beltrami::cli {
 
@@ -77,6 +77,11 @@ class Flatten final : public Command {
   private:
     Eigen::VectorXcd to_disk(const Surface& source, SolveRecord& solve) {
         Chart chart = round_disk_chart(source);
+        // Here the chart is what is asked for, and no differential is.
+        for (Warning& warning : chart.warnings)
+            if (warning.kind == WarningKind::chart && warning.where.of == Things::faces)
+                warning.sentence = "the conformal map is far from conformal at " +
+                                   counted(warning.where.indices.size(), "face", "faces");
         append(record_.warnings, chart.warnings);
         FoldFreeDisk disk = fold_free_disk(source, chart.vertices);
         solve.factorizations = chart.factorizations + disk.factorizations;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <beltrami/base/counted.h>
 #include <beltrami/base/error.h>
 #include <beltrami/charts/chart_places.h>
 #include <beltrami/flow/beltrami_flow.h>
@@ -23,7 +24,6 @@
 #include "page.h"
 #include "space_target.h"
 #include "start_map_option.h"
-#include "words.h"
 
 namespace beltrami::cli {
 

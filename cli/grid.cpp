@@ -5,6 +5,7 @@
 #include <beltrami/applications/grid_on_surface.h>
 #include <beltrami/applications/image_domain.h>
 #include <beltrami/applications/reached_corners.h>
+#include <beltrami/base/counted.h>
 #include <beltrami/base/error.h>
 #include <beltrami/io/write_mesh.h>
 #include <beltrami/mesh/planar.h>
@@ -17,7 +18,6 @@
 #include "output.h"
 #include "page.h"
 #include "start_map_option.h"
-#include "words.h"
 
 namespace beltrami::cli {
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <beltrami/applications/deformed_picture.h>
+#include <beltrami/base/counted.h>
 #include <beltrami/base/error.h>
 #include <beltrami/base/parallel.h>
 #include <beltrami/io/extension.h>
@@ -12,7 +13,6 @@
 #include "command.h"
 #include "parse.h"
 #include "png_file.h"
-#include "words.h"
 
 namespace beltrami::cli {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include <beltrami/base/counted.h>
 #include <beltrami/base/error.h>
 #include <beltrami/mesh/diagnosis.h>
 #include <beltrami/mesh/topology.h>
@@ -10,7 +11,6 @@
 
 #include "command.h"
 #include "mesh_input.h"
-#include "words.h"
 
 namespace beltrami::cli {
 

@@ -5,11 +5,11 @@
 
 #include <fmt/format.h>
 
+#include <beltrami/base/counted.h>
 #include <beltrami/base/error.h>
 #include <beltrami/registration/nearest_places.h>
 
 #include "place_file.h"
-#include "words.h"
 
 namespace beltrami::cli {
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <beltrami/base/counted.h>
 #include <beltrami/base/error.h>
 #include <beltrami/base/memory.h>
 #include <beltrami/report/timing.h>
@@ -21,7 +22,6 @@
 #include "slide_option.h"
 #include "space_method.h"
 #include "start_map_option.h"
-#include "words.h"
 
 namespace beltrami::cli {
 

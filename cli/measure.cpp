@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include <beltrami/base/counted.h>
 #include <beltrami/base/error.h>
 #include <beltrami/certificate/proved_bounds.h>
 #include <beltrami/io/read_polygons.h>
@@ -15,7 +16,6 @@
 #include "mesh_input.h"
 #include "page.h"
 #include "reference_option.h"
-#include "words.h"
 
 namespace beltrami::cli {
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include <beltrami/base/counted.h>
 #include <beltrami/base/error.h>
 #include <beltrami/io/read_polygons.h>
 #include <beltrami/mesh/diagnosis.h>
@@ -13,8 +14,6 @@
 #include <beltrami/mesh/submesh.h>
 #include <beltrami/meshing/face_split.h>
 #include <beltrami/space/polygon_surface.h>
-
-#include "words.h"
 
 namespace beltrami::cli {
 

@@ -5,11 +5,10 @@
 
 #include <fmt/format.h>
 
+#include <beltrami/base/counted.h>
 #include <beltrami/base/error.h>
 #include <beltrami/io/atomic_file.h>
 #include <beltrami/locate/corner_weights.h>
-
-#include "words.h"
 
 namespace beltrami::cli {
 

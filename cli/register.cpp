@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <beltrami/base/counted.h>
 #include <beltrami/base/error.h>
 #include <beltrami/forms/flat_torus.h>
 #include <beltrami/hyperbolic/hyperbolic_domain.h>
@@ -14,7 +15,6 @@
 #include "page.h"
 #include "place_file.h"
 #include "start_map_option.h"
-#include "words.h"
 
 namespace beltrami::cli {
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <beltrami/base/counted.h>
 #include <beltrami/base/error.h>
 #include <beltrami/forms/flat_torus.h>
 #include <beltrami/io/number_lists.h>
@@ -21,7 +22,6 @@
 #include "place_file.h"
 #include "reference_option.h"
 #include "space_input.h"
-#include "words.h"
 
 namespace beltrami::cli {
 

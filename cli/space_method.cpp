@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <beltrami/base/counted.h>
 #include <beltrami/base/error.h>
 #include <beltrami/io/coefficient_file.h>
 #include <beltrami/space/uniform_map.h>
@@ -9,7 +10,6 @@
 #include "output.h"
 #include "page.h"
 #include "space_input.h"
-#include "words.h"
 
 namespace beltrami::cli {
 

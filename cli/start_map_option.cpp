@@ -1,10 +1,10 @@
 #include "start_map_option.h"
 
+#include <beltrami/base/counted.h>
 #include <beltrami/base/error.h>
 #include <beltrami/mesh/texture_map.h>
 
 #include "command.h"
-#include "words.h"
 
 namespace beltrami::cli {
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <beltrami/base/counted.h>
 #include <beltrami/base/error.h>
 #include <beltrami/io/atomic_file.h>
 #include <beltrami/io/write_mesh.h>
@@ -14,7 +15,6 @@
 #include "mesh_input.h"
 #include "output.h"
 #include "place_file.h"
-#include "words.h"
 
 namespace beltrami::cli {
 

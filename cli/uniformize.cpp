@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include <beltrami/base/counted.h>
 #include <beltrami/base/error.h>
 #include <beltrami/certificate/refined_problem.h>
 #include <beltrami/charts/uniformization.h>
@@ -20,7 +21,6 @@
 #include "output.h"
 #include "page.h"
 #include "sphere_option.h"
-#include "words.h"
 
 namespace beltrami::cli {
 

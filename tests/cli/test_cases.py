@@ -35,6 +35,7 @@ class Cases(Command):
             record = self.record("flatten", CASES / name, "-o", self.path("o.obj"), "--disk")
             self.assertEqual(record["map"]["flipped"], 0, name)
             self.assertTrue(any("not one-to-one" in warning for warning in record["warnings"]), record["warnings"])
+            self.assertIn("the conformal map is far from conformal at 1 face", record["warnings"])
 
     def test_a_hole_whose_class_decides(self):
         arguments = ["--boundary", "rectangle:2,1", "--corners", "0,24,324,300", "--hole", "1=disk:1,.5,.15"]

@@ -9,6 +9,7 @@
 
 #include <beltrami/applications/handled_surface.h>
 #include <beltrami/applications/held_maps.h>
+#include <beltrami/base/counted.h>
 #include <beltrami/base/error.h>
 #include <beltrami/locate/point_at.h>
 #include <beltrami/mesh/planar.h>
@@ -31,7 +32,7 @@ constexpr int kUniformSteps = 40, kDifferentialSteps = 30;
 constexpr double kDifferentialTolerance = 1e-3;
 
 std::string counted_faces(std::size_t count) {
-    return std::to_string(count) + (count == 1 ? " face folds" : " faces fold");
+    return counted(count, "face folds", "faces fold");
 }
 
 Mesh with_positions(const Mesh& mesh, Positions positions) {
@@ -305,7 +306,7 @@ struct DeformSolver::Parts {
                     result.warnings = std::move(map.warnings);
                     return result;
                 }
-                reason = "it flips " + std::to_string(flipped.size()) + " faces on the surface";
+                reason = "it flips " + counted(flipped.size(), "face", "faces") + " on the surface";
             } catch (const Error& error) {
                 if (error.cause() == Cause::cancelled) throw;
                 reason = error.what();

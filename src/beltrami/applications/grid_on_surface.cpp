@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include <beltrami/base/counted.h>
 #include <beltrami/base/disjoint_sets.h>
 #include <beltrami/base/error.h>
 #include <beltrami/base/parallel.h>
@@ -45,7 +46,7 @@ struct Image {
         }
         if (!turned.empty())
             throw Error(Cause::bad_mesh,
-                        "the map flips or flattens " + std::to_string(turned.size()) + " faces, the first being " +
+                        "the map flips or flattens " + counted(turned.size(), "face", "faces") + ", the first being " +
                             std::to_string(turned[0]),
                         "a grid needs a one-to-one map", {Things::faces, turned});
         return image;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <beltrami/base/counted.h>
 #include <beltrami/base/error.h>
 #include <beltrami/operators/distortion.h>
 #include <beltrami/plane/polygon.h>
@@ -87,10 +88,9 @@ bool has_no_folds(const Surface& source, const Eigen::VectorXcd& map) {
 void warn_of_flips(const Surface& source, BaselineMap& result) {
     std::vector<int> flipped = distortion(source.operators, result.map).flipped;
     if (!flipped.empty())
-        result.warnings.push_back(
-            {WarningKind::flipped_faces,
-             std::to_string(flipped.size()) + (flipped.size() == 1 ? " face is" : " faces are") + " flipped",
-             {Things::faces, std::move(flipped)}});
+        result.warnings.push_back({WarningKind::flipped_faces,
+                                   counted(flipped.size(), "face is", "faces are") + " flipped",
+                                   {Things::faces, std::move(flipped)}});
 }
 
 void warn_of_limit(const char* unsettled, BaselineMap& result) {

@@ -1,5 +1,6 @@
 #include <beltrami/charts/chart.h>
 
+#include <beltrami/base/counted.h>
 #include <beltrami/base/parallel.h>
 #include <beltrami/operators/distortion.h>
 
@@ -92,11 +93,12 @@ void take_samples(const Operators& operators, const Eigen::VectorXcd& values, Ch
     }
     chart.excluded_faces = static_cast<int>(excluded.size());
     if (chart.excluded_faces)
-        chart.warnings.push_back({WarningKind::chart,
-                                  "the conformal chart is far from conformal at " +
-                                      std::to_string(chart.excluded_faces) +
-                                      " faces; they are left out when the quadratic differential is determined",
-                                  {Things::faces, std::move(excluded)}});
+        chart.warnings.push_back(
+            {WarningKind::chart,
+             "the conformal chart is far from conformal at " +
+                 counted(static_cast<std::size_t>(chart.excluded_faces), "face; it is", "faces; they are") +
+                 " left out when the quadratic differential is determined",
+             {Things::faces, std::move(excluded)}});
 }
 
 }  // namespace

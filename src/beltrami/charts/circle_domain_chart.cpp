@@ -5,6 +5,7 @@
 #include <sstream>
 #include <string>
 
+#include <beltrami/base/counted.h>
 #include <beltrami/base/effort.h>
 #include <beltrami/base/error.h>
 #include <beltrami/charts/circle_slide.h>
@@ -175,18 +176,18 @@ void unfold(const Surface& source, CircleDomainChart& result) {
     if (!faces.empty() && result.holes.empty()) {  // smaller than rounding, they are no part of the domain
         result.chart.warnings.push_back(
             {WarningKind::chart,
-             std::to_string(faces.size()) + " faces stay flipped in the circle domain; they are left out of it",
+             counted(faces.size(), "face stays", "faces stay") + " flipped in the circle domain and out of it",
              {Things::faces, faces}});
         return;
     }
     if (!faces.empty())
         throw Error(Cause::not_solved,
-                    std::to_string(faces.size()) + " faces stay flipped in the circle domain, the first is face " +
-                        std::to_string(faces[0]),
+                    counted(faces.size(), "face stays", "faces stay") +
+                        " flipped in the circle domain, the first is face " + std::to_string(faces[0]),
                     "refine the mesh near them", {Things::faces, faces});
     result.chart.warnings.push_back({WarningKind::chart,
-                                     "the harmonic map flipped " + std::to_string(folded.size()) +
-                                         " faces; they were unfolded, which costs conformality",
+                                     "the harmonic map flipped " + counted(folded.size(), "face", "faces") +
+                                         ", unfolded since, which costs conformality",
                                      {Things::faces, folded}});
 }
 

@@ -11,6 +11,7 @@
 
 #include <Eigen/Geometry>
 
+#include <beltrami/base/counted.h>
 #include <beltrami/base/error.h>
 #include <beltrami/flow/led_map.h>
 #include <beltrami/flow/unfolded_patches.h>
@@ -379,7 +380,7 @@ LpRegistration register_least_lp(const Surface& source, const Surface& target,
     result.start_flipped = found.from.start_flipped;
     if (const std::vector<int>& flipped = result.map.distortion.flipped; !flipped.empty())
         throw Error(Cause::not_solved,
-                    std::to_string(flipped.size()) + " faces stay flipped: the start had " +
+                    counted(flipped.size(), "face stays", "faces stay") + " flipped: the start had " +
                         std::to_string(result.start_flipped.size()) + " that cannot be opened",
                     "give curves that run alike on both surfaces, fewer of them, or a start without flips",
                     {Things::faces, flipped});

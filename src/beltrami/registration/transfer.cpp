@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include <beltrami/base/counted.h>
 #include <beltrami/base/error.h>
 #include <beltrami/base/parallel.h>
 #include <beltrami/registration/boundary_match.h>
@@ -80,7 +81,7 @@ SurfaceCorrespondence::SurfaceCorrespondence(const Surface& source, const Surfac
 void SurfaceCorrespondence::require_upright() const {
     const std::vector<int> flipped = on_source_->flipped();
     if (!flipped.empty())
-        throw Error(Cause::bad_mesh, std::to_string(flipped.size()) + " faces are flipped between their places",
+        throw Error(Cause::bad_mesh, counted(flipped.size(), "face is", "faces are") + " flipped between their places",
                     "give places that a registration of these two meshes wrote, onto the same outer loop of the target",
                     {Things::faces, flipped});
 }

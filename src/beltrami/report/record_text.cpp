@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <beltrami/base/counted.h>
 #include <beltrami/report/text_table.h>
 
 namespace beltrami {
@@ -176,7 +177,7 @@ std::string lines_of(const RemeshRecord& remesh) {
     std::string text = angles("before", remesh.before) + angles("after", remesh.after);
     text += fmt::format("at most {:.2g} of the diagonal away from the surface; area times {:.4f}; {} opposed to it\n",
                         remesh.distance.largest, remesh.area_ratio,
-                        remesh.opposed_after == 1 ? "1 face" : std::to_string(remesh.opposed_after) + " faces");
+                        counted(static_cast<std::size_t>(remesh.opposed_after), "face", "faces"));
     text += fmt::format("the valences alone cost |mu| = {:.3f} on average\n", remesh.valence_floor);
     if (remesh.teichmueller)
         text += fmt::format("no map between the two tori has |mu| below {:.4f} everywhere\n", *remesh.teichmueller);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include <beltrami/base/counted.h>
 #include <beltrami/base/error.h>
 #include <beltrami/certificate/refined_problem.h>
 #include <beltrami/certificate/verified_bracket.h>
@@ -204,7 +205,10 @@ std::string improve_estimate(const Surface& source, const Constraints& constrain
         if (now <= gap || now < (1 - limits.least_progress) * before) continue;
         std::string why = "a refinement did not lower it noticeably";
         if (!finer.distortion.flipped.empty())
-            why += "; " + std::to_string(finer.distortion.flipped.size()) + " faces of the finer mesh are flipped";
+            why +=
+                "; " +
+                counted(finer.distortion.flipped.size(), "face of the finer mesh is", "faces of the finer mesh are") +
+                " flipped";
         else if (!finer.sharpest || finer.sharpest->safe_bound < 0.9 * done.result.K)
             why += "; the extremal map is not smooth enough for the differentials at hand";
         else

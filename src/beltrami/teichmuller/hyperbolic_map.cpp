@@ -9,6 +9,7 @@
 
 #include <Eigen/LU>
 
+#include <beltrami/base/counted.h>
 #include <beltrami/base/error.h>
 #include <beltrami/coefficient/coefficient_step.h>
 #include <beltrami/differentials/holomorphic_products.h>
@@ -218,8 +219,8 @@ HyperbolicMap hyperbolic_map(const HyperbolicShape& source, const HyperbolicShap
     result.measure(surface, target.given(), result.distortion.mu);
     if (source.split())
         result.warnings.push_back(
-            {WarningKind::edges_split, std::to_string(source.split()->split_edges) +
-                                           " edges between boundary vertices were split at their midpoints"});
+            {WarningKind::edges_split, counted(static_cast<std::size_t>(source.split()->split_edges), "edge", "edges") +
+                                           " between boundary vertices split at the midpoint"});
     result.k_in_space = coefficient_step.solve(result.in_space.mu, last.direction).k;
     const bool below_bound = result.K_homology > result.K * (1 + kUnresolvedK);
     if (iteration.converged() && !result.one_to_one())

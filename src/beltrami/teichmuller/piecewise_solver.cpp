@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include <beltrami/base/counted.h>
 #include <beltrami/base/error.h>
 #include <beltrami/certificate/attained_dilatation.h>
 #include <beltrami/charts/domain_chart.h>
@@ -52,7 +53,7 @@ PiecewiseSolver::PiecewiseSolver(const Surface& source, const Constraints& const
 
 std::string PiecewiseSolver::name(std::size_t piece) const {
     return "in the piece of face " + std::to_string(pieces_[piece].faces[0]) + " (" +
-           std::to_string(pieces_[piece].faces.size()) + " faces, its vertices and loops counted anew)";
+           counted(pieces_[piece].faces.size(), "face", "faces") + ", its vertices and loops counted anew)";
 }
 
 ExtremalSolver::Update PiecewiseSolver::update(const std::vector<Complex>& images, int max_iterations) {

@@ -1,13 +1,16 @@
 #include <beltrami/teichmuller/prepared_problem.h>
 
+#include <beltrami/base/counted.h>
 #include <beltrami/base/error.h>
 #include <beltrami/constraints/boundary_feasibility.h>
 
 namespace beltrami {
 
 Warning PreparedProblem::split_warning(const char* kind) const {
-    return {WarningKind::edges_split, std::to_string(split->split_edges) + " edges between " + kind +
-                                          " vertices were split; added vertices follow the source's"};
+    return {WarningKind::edges_split, counted(static_cast<std::size_t>(split->split_edges), "edge", "edges") +
+                                          " between " + kind +
+                                          (split->split_edges == 1 ? " vertices was" : " vertices were") +
+                                          " split; added vertices follow the source's"};
 }
 
 PreparedProblem prepared(SplitProblem split) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include <beltrami/base/counted.h>
 #include <beltrami/certificate/attained_dilatation.h>
 #include <beltrami/differentials/laurent_space.h>
 #include <beltrami/differentials/mixed_space.h>
@@ -75,9 +76,8 @@ void warn_of_crushed_faces(ExtremalMap& result) {
     for (Eigen::Index f = 0; f < abs_mu.size(); ++f)
         if (abs_mu[f] > kCrushed) crushed.push_back(static_cast<int>(f));
     if (crushed.empty()) return;
-    const bool one = crushed.size() == 1;
     result.warnings.push_back({WarningKind::rough,
-                               std::to_string(crushed.size()) + (one ? " face has" : " faces have") +
+                               counted(crushed.size(), "face has", "faces have") +
                                    " |mu| above 0.9, the first is face " + std::to_string(crushed[0]) +
                                    ": the map leaves next to no room there, at notches and slots of the outline, and "
                                    "linear faces cannot follow it; a finer mesh there can",

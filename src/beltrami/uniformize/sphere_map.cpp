@@ -9,6 +9,7 @@
 
 #include <Eigen/Geometry>
 
+#include <beltrami/base/counted.h>
 #include <beltrami/base/error.h>
 #include <beltrami/meshing/face_split.h>
 #include <beltrami/solve/raised_corners.h>
@@ -137,7 +138,7 @@ class Mapping {
         else if (repair.averaged > 0)
             result_.route = SphereRoute::averaged;
         if (repair.flipped.empty()) return true;
-        failure_ = std::to_string(repair.flipped.size()) + " faces stay flipped between the conformal images";
+        failure_ = counted(repair.flipped.size(), "face stays", "faces stay") + " flipped between the conformal images";
         keep_best(repair.flipped);
         if (!turned_in_ && faces_.upright_as_triangles(result_.positions) &&
             distortion(source_.operators, result_.positions, result_.positions).flipped.empty())
@@ -238,8 +239,9 @@ class Mapping {
     std::string unresolved_sentence() const {
         char percent[32];
         std::snprintf(percent, sizeof percent, "%.3g", 100 * result_.unresolved_area);
-        return std::to_string(result_.unresolved.size()) + " faces (" + percent +
-               " % of the area) have edges below 1e-13 of the sphere's radius, which double precision does not resolve";
+        return counted(result_.unresolved.size(), "face (", "faces (") + percent + " % of the area) " +
+               (result_.unresolved.size() == 1 ? "has" : "have") +
+               " edges below 1e-13 of the sphere's radius, which double precision does not resolve";
     }
 
     [[noreturn]] void refuse() {
