@@ -148,6 +148,7 @@ Eigen::VectorXd CoefficientStep::at_points(const Eigen::VectorXd& of_samples) co
 void CoefficientStep::set_space(const DifferentialSpace& space) {
     sampled_.set(space);
     last_coefficients_.resize(0);
+    bent_ = false;
     problem_.complex_coefficients = space.complex_coefficients();
     on_cells_ = cells_.has_value() && !space.tabulated();
     if (on_cells_) {
@@ -204,10 +205,12 @@ class SampleNorm final : public DualNorm {
   public:
     /// @param weights A a of every point, 0 where the chart excludes the sample
     /// @param known, values coefficients of which the values at the samples are known
-    SampleNorm(const SampledSpace& space, const Chart& chart, const Eigen::VectorXd& weights,
-               const Eigen::VectorXcd& known, const Eigen::VectorXcd& values)
+    /// @param clusters the points of the problem
+    SampleNorm(const SampledSpace& space, const Chart& chart, const SampleClusters& clusters,
+               const Eigen::VectorXd& weights, const Eigen::VectorXcd& known, const Eigen::VectorXcd& values)
         : space_(space),
           chart_(chart),
+          clusters_(clusters),
           weights_(weights),
           known_(known),
           values_(values),
@@ -239,6 +242,20 @@ class SampleNorm final : public DualNorm {
         if (points == 0) return space_.pair(direction);
         return space_.pair(direction.topRows(samples_)) + space_.pair_at_means(direction.bottomRows(points));
     }
+    /// Of tables, whose functions are there at every sample.
+    Eigen::MatrixXd hessian(const Eigen::VectorXcd& phi, double delta, const Eigen::VectorXd& reach) const override {
+        const DifferentialSpace& space = space_.space();
+        const bool by_clusters = reach.size() == clusters_.points.positions.size();
+        if (!space.tabulated() || space.transform() || phi.size() != samples_ || !by_clusters) return {};
+        Eigen::VectorXd rounded(samples_), reached(samples_);
+        for (int s = 0; s < samples_; ++s) {
+            const double square = std::norm(chart_.derivatives[s]);
+            const int cluster = clusters_.cluster[s];
+            rounded[s] = delta * square;
+            reached[s] = cluster >= 0 ? reach[cluster] * square : 0.0;
+        }
+        return dual_hessian(*space.tabulated(), space.complex_coefficients(), weights_, phi, rounded, reached);
+    }
 
   private:
     Eigen::VectorXcd at_samples(const Eigen::VectorXcd& c) const {
@@ -256,6 +273,7 @@ class SampleNorm final : public DualNorm {
     }
     const SampledSpace& space_;
     const Chart& chart_;
+    const SampleClusters& clusters_;
     const Eigen::VectorXd& weights_;
     const Eigen::VectorXcd &known_, &values_;
     int samples_;
@@ -361,11 +379,13 @@ CoefficientStep::Result CoefficientStep::solve_on_samples(const Weights& weights
     for (std::size_t q = 0; q < parts_.size(); ++q)
         problem_.weights[static_cast<Eigen::Index>(q)] = parts_[q].part * cluster_weight[parts_[q].cluster];
     problem_.pairing = sampled_.pair(weights.pairing);
-    const SampleNorm norm(sampled_, chart_, norm_weight, last_coefficients_, last_values_);
+    const SampleNorm norm(sampled_, chart_, clusters_, norm_weight, last_coefficients_, last_values_);
     const Eigen::VectorXcd at = begin(start);
     options.norm = &norm;
+    options.bent = bent_;
     const DualSolution dual = solve_dual(problem_, at, options);
     moved_ = dual.moved;
+    bent_ = dual.bent;
 
     Result result = result_of(dual);
     const double length = dual.coefficients.norm();

@@ -108,6 +108,7 @@ class CoefficientStep {
     std::vector<Part> parts_;  ///< of the clusters, for which those points stand
     DualProblem problem_;
     Eigen::VectorXd moved_;  ///< of φ at the clusters in the last step
+    bool bent_ = false;      ///< the last step took the Hessian of all samples
     double least_rounding_ = 0;
     double clip_ = 0.95;
     bool soft_ = false;  ///< see coefficient()

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <beltrami/base/parallel.h>
@@ -36,6 +37,8 @@ constexpr double kInnerFraction = 0.15;
 constexpr double kSameHessian = 0.03;
 /// The coarse norm is trusted no longer once less than this part of its step is taken.
 constexpr double kTrusted = 0.3;
+/// … and its Hessian, once it is that of the other norm, no longer where a round leaves more than this of the way.
+constexpr double kSlow = 0.5;
 /// The change that a second look is expected to make, as part of the first.
 constexpr double kFirstRate = 0.2;
 /// Gradients are exact where the norm is flat to rounding: so many rounds more, down to such a change.
@@ -45,6 +48,8 @@ constexpr double kExact = 1e-11;
 constexpr int kDualPoints = 512;
 /// Columns of the Hessian's rows that a thread fills at once.
 constexpr int kHessianColumns = 8;
+/// Points of a finer norm whose rows are there at once.
+constexpr Eigen::Index kHessianPoints = 8192;
 
 /// φ_c at the points of a basis.
 Eigen::VectorXcd combination(const Eigen::MatrixXcd& basis, const Eigen::VectorXcd& c) {
@@ -136,10 +141,13 @@ class OwnNorm final : public DualNorm {
 /// nothing about the far side of a zero, and steps overshoot wherever they are as long as φ is large; that of the
 /// rounded norm does, and is as good where they are short.
 /// @param storage of the rows: large, and kept from one call to the next
-Eigen::MatrixXd dual_hessian(const DualProblem& problem, const RealView& view, const Eigen::VectorXcd& phi,
-                             double delta, const Eigen::VectorXd& reach, Eigen::VectorXd& storage) {
-    const Eigen::Index m = problem.basis.cols(), points = problem.basis.rows();
-    const Eigen::VectorXd rounding = reach.array().square() + delta * delta;
+Eigen::MatrixXd hessian_of_rows(const Eigen::Ref<const Eigen::MatrixXcd>& basis, const RealView& view,
+                                const Eigen::Ref<const Eigen::VectorXd>& weights,
+                                const Eigen::Ref<const Eigen::VectorXcd>& phi,
+                                const Eigen::Ref<const Eigen::VectorXd>& delta,
+                                const Eigen::Ref<const Eigen::VectorXd>& reach, Eigen::VectorXd& storage) {
+    const Eigen::Index m = basis.cols(), points = basis.rows();
+    const Eigen::VectorXd rounding = reach.array().square() + delta.array().square();
     Eigen::VectorXd sizes = (phi.array().abs2() + rounding.array()).sqrt();
     sizes = sizes.cwiseMax(kFloor * sizes.maxCoeff());
     std::vector<int> second(static_cast<std::size_t>(points), -1);  // row of the second kind
@@ -147,8 +155,8 @@ Eigen::MatrixXd dual_hessian(const DualProblem& problem, const RealView& view, c
     int count = static_cast<int>(points);
     for (Eigen::Index i = 0; i < points; ++i) {
         const double size = std::sqrt(std::norm(phi[i])), square = sizes[i] * sizes[i];
-        e[i] = (size > 0 ? std::conj(phi[i]) / size : 1.0) * std::sqrt(problem.weights[i] / sizes[i]);
-        if (delta * delta > kNearZero * square || reach[i] * reach[i] > kNearReach * square) second[i] = count++;
+        e[i] = (size > 0 ? std::conj(phi[i]) / size : 1.0) * std::sqrt(weights[i] / sizes[i]);
+        if (delta[i] * delta[i] > kNearZero * square || reach[i] * reach[i] > kNearReach * square) second[i] = count++;
     }
     const Eigen::Index height = count, width = view.complex ? 2 * m : m;
     if (storage.size() < height * width) storage.resize(2 * points * width);
@@ -157,7 +165,7 @@ Eigen::MatrixXd dual_hessian(const DualProblem& problem, const RealView& view, c
         0, static_cast<int>(m),
         [&](int first, int last) {
             for (int j = first; j < last; ++j) {
-                const Complex* const column = &problem.basis(0, j);
+                const Complex* const column = basis.col(j).data();
                 double* const to = &rows(0, j);
                 double* const to_imaginary = view.complex ? &rows(0, m + j) : nullptr;  // of iφ_j
                 for (Eigen::Index i = 0; i < points; ++i) {
@@ -176,15 +184,53 @@ Eigen::MatrixXd dual_hessian(const DualProblem& problem, const RealView& view, c
     return gram_lower(rows);
 }
 
+}  // namespace
+
+Eigen::MatrixXd dual_hessian(const Eigen::Ref<const Eigen::MatrixXcd>& basis, bool complex_coefficients,
+                             const Eigen::VectorXd& weights, const Eigen::VectorXcd& phi, const Eigen::VectorXd& delta,
+                             const Eigen::VectorXd& reach) {
+    const RealView view{complex_coefficients};
+    Eigen::VectorXd storage;
+    Eigen::MatrixXd sum;
+    // A block at a time: the rows of all points would be several times as large as the basis.
+    for (Eigen::Index first = 0; first < basis.rows(); first += kHessianPoints) {
+        const Eigen::Index count = std::min<Eigen::Index>(kHessianPoints, basis.rows() - first);
+        Eigen::MatrixXd part = hessian_of_rows(basis.middleRows(first, count), view, weights.segment(first, count),
+                                               phi.segment(first, count), delta.segment(first, count),
+                                               reach.segment(first, count), storage);
+        if (first == 0)
+            sum = std::move(part);
+        else
+            sum += part;
+    }
+    return sum;
+}
+
+namespace {
+
 /// The norm on the points of the problem with a linear term, Σ w √(|φ_x|²+δ²) + t·x, to be minimised on the hyperplane
-/// p·x = const. A tilt t makes its gradient that of another norm at one place.
+/// p·x = const. A tilt t makes its gradient that of another norm at one place; a quadratic term ½ (x − y)·C (x − y) its
+/// Hessian too, where means over the points hide most of what functions do.
 class TiltedNorm {
   public:
     TiltedNorm(const DualProblem& problem, const RealView& view, const Eigen::VectorXd& p, double delta)
         : problem_(problem), view_(view), p_(p), delta_(delta) {}
 
-    Eigen::VectorXd gradient(const Eigen::VectorXcd& phi) const {
-        return view_.covector(dual_gradient(problem_.basis, problem_.weights, phi, delta_));
+    /// With the quadratic term, without a tilt.
+    Eigen::VectorXd gradient(const Eigen::VectorXd& x, const Eigen::VectorXcd& phi) const {
+        Eigen::VectorXd result = view_.covector(dual_gradient(problem_.basis, problem_.weights, phi, delta_));
+        if (bend_.size() > 0) result += bend_ * (x - bent_at_);
+        return result;
+    }
+
+    /// Makes @p hessian (lower triangle) the Hessian at @p x.
+    void bend(const Eigen::VectorXd& x, const Eigen::VectorXcd& phi, const Eigen::VectorXd& reach,
+              Eigen::MatrixXd hessian) {
+        const Eigen::MatrixXd more = hessian - own_hessian(phi, reach);
+        bend_ = more.selfadjointView<Eigen::Lower>();
+        bent_at_ = x;
+        wanted_ = std::move(hessian);
+        same_hessian_ = false;
     }
 
     struct End {
@@ -200,9 +246,9 @@ class TiltedNorm {
                 double step, double fraction, int max_steps) {
         End end;
         const Eigen::VectorXd start = x;
-        double value = problem_.weights.dot(sizes_of(phi, delta_)) + tilt.dot(x), last_moved = 0;
+        double value = problem_.weights.dot(sizes_of(phi, delta_)) + tilt.dot(x) + bent(x), last_moved = 0;
         while (end.steps < max_steps) {
-            const Eigen::VectorXd slope_by = gradient(phi) + tilt;
+            const Eigen::VectorXd slope_by = gradient(x, phi) + tilt;
             const bool fresh = !same_hessian_;
             if (fresh && !set_hessian(phi, reach)) break;
             same_hessian_ = false;
@@ -219,8 +265,8 @@ class TiltedNorm {
             bool accepted = false;
             for (int halving = 0; halving < (fresh ? kHalvings : 1) && !accepted; ++halving) {
                 const Eigen::VectorXcd trial = phi + length * phi_step;
-                const double trial_value =
-                    problem_.weights.dot(sizes_of(trial, delta_)) + tilt.dot(x) + length * tilt.dot(direction);
+                const double trial_value = problem_.weights.dot(sizes_of(trial, delta_)) + tilt.dot(x) +
+                                           length * tilt.dot(direction) + bent(x + length * direction);
                 accepted = trial_value <= value + (flat ? kGradientTolerance * scale : kDescent * length * slope);
                 if (accepted) {
                     phi = trial;
@@ -250,9 +296,28 @@ class TiltedNorm {
     }
 
   private:
+    Eigen::MatrixXd own_hessian(const Eigen::VectorXcd& phi, const Eigen::VectorXd& reach) {
+        return hessian_of_rows(problem_.basis, view_, problem_.weights, phi,
+                               Eigen::VectorXd::Constant(phi.size(), delta_), reach, storage_);
+    }
+
+    /// The quadratic term.
+    double bent(const Eigen::VectorXd& x) const {
+        if (bend_.size() == 0) return 0;
+        const Eigen::VectorXd way = x - bent_at_;
+        return 0.5 * way.dot(bend_ * way);
+    }
+
     /// @return false if the Hessian is not definite
     bool set_hessian(const Eigen::VectorXcd& phi, const Eigen::VectorXd& reach) {
-        Eigen::MatrixXd hessian = dual_hessian(problem_, view_, phi, delta_, reach, storage_);
+        Eigen::MatrixXd hessian = own_hessian(phi, reach);
+        if (bend_.size() == 0) return factorize(std::move(hessian));
+        // Far from where it was bent the sum need not be definite: then that of the place itself serves.
+        hessian += bend_;
+        return factorize(std::move(hessian)) || factorize(wanted_);
+    }
+
+    bool factorize(Eigen::MatrixXd hessian) {
         // x itself is a null direction (the norm is homogeneous of degree one). On the hyperplane a multiple of p pᵀ
         // changes nothing and makes the matrix definite; the tiny shift is for functions that no quadrature point sees.
         const double mean_diagonal = hessian.trace() / static_cast<double>(p_.size());
@@ -273,6 +338,9 @@ class TiltedNorm {
     const RealView& view_;
     const Eigen::VectorXd& p_;
     double delta_;
+    Eigen::MatrixXd bend_;     ///< of the quadratic term; empty: there is none
+    Eigen::VectorXd bent_at_;  ///< y
+    Eigen::MatrixXd wanted_;   ///< the Hessian there, lower triangle
     Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> cholesky_;
     Eigen::VectorXd by_constraint_;
     Eigen::VectorXd storage_;    ///< of dual_hessian()
@@ -329,9 +397,15 @@ DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& star
         double norm = fine.norm(phi, delta), last_moved = 0;
         bool trusted = true;
         int flat_rounds = 0;
+        const auto bend = [&] {
+            Eigen::MatrixXd hessian = fine.hessian(phi, delta, reach);
+            solution.bent = hessian.rows() > 0;
+            if (solution.bent) coarse.bend(x, coarse_phi, reach, std::move(hessian));
+        };
+        if (options.bent) bend();
         for (int round = 0; solution.newton_steps < options.max_steps; ++round) {
             const Eigen::VectorXd gradient = view.covector(fine.gradient(phi, delta));
-            const Eigen::VectorXd tilt = gradient - coarse.gradient(coarse_phi);
+            const Eigen::VectorXd tilt = gradient - coarse.gradient(x, coarse_phi);
             Eigen::VectorXd next = x;
             const TiltedNorm::End end =
                 coarse.descend(next, coarse_phi, tilt, reach, options.step, kInnerFraction,
@@ -365,11 +439,16 @@ DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& star
             if (length < 1) coarse_phi = combination(problem.basis, view.unpack(x));
             const double moved = length * direction.norm() / x.norm();
             // What another round would still change.
-            const double rest = moved * (round == 0 ? kFirstRate : std::min(1.0, moved / last_moved));
+            const double rate = round == 0 ? kFirstRate : std::min(1.0, moved / last_moved);
+            const double rest = moved * rate;
             last_moved = moved;
-            // Functions that the coarse norm hardly sees lead it astray: then step by step.
+            // Functions that the coarse norm hardly sees lead it astray: then with the other norm's Hessian, or, where
+            // that is not to be had, step by step.
             const bool whole = length > kTrusted;
-            trusted = trusted && whole;
+            if (trusted && (solution.bent ? length < 1 || rate > kSlow : !whole)) {
+                bend();
+                trusted = solution.bent;
+            }
             if (flat_rounds > kFlatRounds || (accepted && whole && rest < std::max(options.step, kExact))) {
                 solution.converged = true;
                 break;

@@ -29,6 +29,7 @@ struct DualSolution {
     Eigen::VectorXcd phi;           ///< φ_c at the points of the norm
     /// |φ_c − φ at the start| at the points of the problem, per mean |φ_c| there: how far φ has moved.
     Eigen::VectorXd moved;
+    bool bent = false;  ///< the Hessian of the problem's points failed, and that of the norm was taken
     int newton_steps = 0;
     bool converged =
         false;  ///< false: the steps allowed did not suffice, or no step descends although the slope is not 0
@@ -44,6 +45,13 @@ class DualNorm {
     virtual double norm(const Eigen::VectorXcd& phi, double delta) const = 0;
     /// m values Σ w conj(φ)/√(|φ|²+δ²) φ_j.
     virtual Eigen::VectorXcd gradient(const Eigen::VectorXcd& phi, double delta) const = 0;
+    /// The Hessian, in the lower triangle, in the real view of the coefficients (Re c, Im c), or Re c where they are
+    /// real; without rows where it is not to be had. It is asked for where that of the problem's points fails.
+    /// @param reach how far φ is expected to move at the points of the problem
+    virtual Eigen::MatrixXd hessian(const Eigen::VectorXcd& /*phi*/, double /*delta*/,
+                                    const Eigen::VectorXd& /*reach*/) const {
+        return {};
+    }
 };
 
 struct DualOptions {
@@ -54,6 +62,7 @@ struct DualOptions {
     /// Where N is minimised; null: on the points of the problem. The steps are Newton's as far as the problem's points
     /// give the Hessian.
     const DualNorm* norm = nullptr;
+    bool bent = false;  ///< begin with the norm's own Hessian, if it is to be had
 };
 
 /// @param start coefficients to start from (may be shorter than m: padded by zeros; may be empty); ignored when its
@@ -64,6 +73,13 @@ DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& star
 /// 1e-12 of its maximum.
 Eigen::VectorXcd dual_gradient(const Eigen::MatrixXcd& basis, const Eigen::VectorXd& weights,
                                const Eigen::VectorXcd& phi, double delta = 0);
+
+/// The Hessian of Σ w √(|φ_c|²+δ²) in the lower triangle, in the real view of the coefficients.
+/// @param delta #Q
+/// @param reach #Q by how much φ is expected to move
+Eigen::MatrixXd dual_hessian(const Eigen::Ref<const Eigen::MatrixXcd>& basis, bool complex_coefficients,
+                             const Eigen::VectorXd& weights, const Eigen::VectorXcd& phi, const Eigen::VectorXd& delta,
+                             const Eigen::VectorXd& reach);
 
 /// k of S = 2k/(1+k²), without cancellation.
 double dilatation_of_pairing(double S);

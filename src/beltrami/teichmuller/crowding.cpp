@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
+
+#include <Eigen/Cholesky>
 
 #include <beltrami/base/constants.h>
 #include <beltrami/certificate/chart_quadrilateral.h>
+#include <beltrami/linear/dense.h>
 #include <beltrami/operators/distortion.h>
 
 namespace beltrami {
@@ -34,27 +38,49 @@ std::pair<Eigen::VectorXd, bool> way_along_image(const std::vector<int>& loop, c
     return {at * (kTurn / length), length > 0};
 }
 
-/// Columns scaled to length 1 and made orthonormal, the one with most left beside the others first (Gram and Schmidt
-/// with pivots).
+/// The upper factor R of RᴴR = the Gram matrix of so many of the columns, each scaled to length 1: the one with most
+/// left beside those before it comes next (Cholesky with pivots).
+struct PivotedFactor {
+    std::vector<Eigen::Index> columns;
+    Eigen::MatrixXcd R;
+};
+/// @param upper the Gram matrix of all columns, of length 1
+PivotedFactor pivoted_factor(const Eigen::MatrixXcd& upper) {
+    const Eigen::Index n = upper.cols();
+    const Eigen::MatrixXcd gram = upper.selfadjointView<Eigen::Upper>();
+    Eigen::VectorXd left = gram.diagonal().real();
+    PivotedFactor result;
+    Eigen::MatrixXcd rows = Eigen::MatrixXcd::Zero(n, n);  // of R, for all columns
+    for (Eigen::Index count = 0; count < n; ++count) {
+        Eigen::Index next = 0;
+        if (!(left.maxCoeff(&next) > kDependent * kDependent)) break;
+        Eigen::RowVectorXcd row = gram.row(next) - rows.col(next).head(count).adjoint() * rows.topRows(count);
+        row /= std::sqrt(left[next]);
+        rows.row(count) = row;
+        left -= row.cwiseAbs2().transpose();
+        result.columns.push_back(next);
+        for (const Eigen::Index taken : result.columns) left[taken] = 0;
+    }
+    const auto rank = static_cast<Eigen::Index>(result.columns.size());
+    result.R = rows(Eigen::seqN(0, rank), result.columns);
+    return result;
+}
+
+/// Columns scaled to length 1 and made orthonormal, those left out that depend on others.
 Eigen::MatrixXcd orthonormal(Eigen::MatrixXcd columns) {
     for (Eigen::Index j = 0; j < columns.cols(); ++j)
         if (const double size = columns.col(j).norm(); size > 0) columns.col(j) /= size;
-    Eigen::Index count = 0;
-    for (; count < columns.cols(); ++count) {
-        Eigen::Index most = 0;
-        const double left = columns.rightCols(columns.cols() - count).colwise().norm().maxCoeff(&most);
-        if (!(left > kDependent)) break;
-        columns.col(count).swap(columns.col(count + most));
-        // Once more, against what rounding has left of those before.
-        columns.col(count) -= columns.leftCols(count) * (columns.leftCols(count).adjoint() * columns.col(count)).eval();
-        columns.col(count).normalize();
-        const Eigen::Index rest = columns.cols() - count - 1;
-        if (rest == 0) continue;
-        const Eigen::RowVectorXcd along = columns.col(count).adjoint() * columns.rightCols(rest);
-        columns.rightCols(rest) -= columns.col(count) * along;
-    }
-    columns.conservativeResize(Eigen::NoChange, count);
-    return columns;
+    const PivotedFactor factor = pivoted_factor(complex_gram_upper(columns));
+    const auto rank = static_cast<Eigen::Index>(factor.columns.size());
+    const Eigen::MatrixXcd identity = Eigen::MatrixXcd::Identity(rank, rank);
+    Eigen::MatrixXcd combinations = Eigen::MatrixXcd::Zero(columns.cols(), rank);
+    const Eigen::MatrixXcd inverse = factor.R.triangularView<Eigen::Upper>().solve(identity);
+    combinations(factor.columns, Eigen::all) = inverse;
+    columns = complex_product(columns, combinations);
+    // Once more, for what rounding has left: the Gram matrix has the square of the condition.
+    const Eigen::LLT<Eigen::MatrixXcd, Eigen::Upper> again(complex_gram_upper(columns));
+    const Eigen::MatrixXcd correction = again.matrixU().solve(identity);
+    return complex_product(columns, correction);
 }
 
 /// The K that quadrilaterals of the rim force in the chart.

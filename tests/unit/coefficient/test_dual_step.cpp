@@ -154,6 +154,35 @@ TEST(DualStep, FewStepsFromNearAndFewLooksAtTheFineNorm) {
     EXPECT_LT((fine.coefficients.normalized() - exact).norm(), 0.01);
 }
 
+/// More points than are taken at once, and a different δ at each.
+TEST(DualStep, TheHessianIsTheDerivativeOfTheGradient) {
+    constexpr Eigen::Index kPoints = 9'000, kFunctions = 3;
+    std::srand(3);
+    const Eigen::MatrixXcd basis = Eigen::MatrixXcd::Random(kPoints, kFunctions);
+    const Eigen::VectorXd weights = Eigen::VectorXd::Random(kPoints).cwiseAbs();
+    const Eigen::VectorXd delta = Eigen::VectorXd::Random(kPoints).cwiseAbs() + Eigen::VectorXd::Constant(kPoints, 0.1);
+    const auto gradient = [&](const Eigen::VectorXcd& c) {
+        const Eigen::VectorXcd phi = basis * c;
+        const Eigen::VectorXcd directions =
+            (weights.array() / (phi.array().abs2() + delta.array().square()).sqrt()).cast<Complex>() *
+            phi.array().conjugate();
+        const Eigen::VectorXcd along = basis.transpose() * directions;
+        Eigen::VectorXd real(2 * kFunctions);
+        real << along.real(), -along.imag();
+        return real;
+    };
+    const Eigen::VectorXcd c = Eigen::VectorXcd::Random(kFunctions), phi = basis * c;
+    const Eigen::MatrixXd lower = dual_hessian(basis, true, weights, phi, delta, Eigen::VectorXd::Zero(kPoints));
+    const Eigen::MatrixXd hessian = lower.selfadjointView<Eigen::Lower>();
+    constexpr double kStep = 1e-5;
+    for (Eigen::Index j = 0; j < 2 * kFunctions; ++j) {
+        Eigen::VectorXcd way = Eigen::VectorXcd::Zero(kFunctions);
+        way[j % kFunctions] = j < kFunctions ? Complex(kStep) : Complex(0, kStep);
+        const Eigen::VectorXd difference = (gradient(c + way) - gradient(c - way)) / (2 * kStep);
+        EXPECT_LT((difference - hessian.col(j)).norm(), 2e-4 * hessian.col(j).norm());
+    }
+}
+
 TEST(DualStep, NothingToSee) {
     const DualSetting setting;
     const DualProblem problem = problem_of(setting.surface, setting.chart, setting.space,

@@ -132,6 +132,34 @@ TEST(Tabulated, TheCoefficientStepIsThatOfTheSpaceItself) {
     }
 }
 
+/// Functions that change from face to face: their means over clusters all but vanish, and with them the Hessian there.
+TEST(Tabulated, FunctionsThatMeansHideAskForTheHessianOfAllSamples) {
+    const TwoHoles setting;
+    const Eigen::MatrixXcd smooth = setting.values();
+    const Eigen::Index samples = smooth.rows(), rough = 6;
+    Eigen::MatrixXcd values(samples, 3 + rough);
+    values.leftCols(3) = smooth;
+    for (Eigen::Index s = 0; s < samples; ++s)
+        for (Eigen::Index j = 0; j < rough; ++j)
+            values(s, 3 + j) = smooth(s, j % 3) * std::polar(1.0, std::fmod((2.0 + j) * s * s, 97));
+    const TabulatedSpace table(values, Coefficients::complex);
+    Eigen::VectorXcd exact(3 + rough);
+    for (Eigen::Index j = 0; j < exact.size(); ++j) exact[j] = std::polar(j < 3 ? 1.0 : 0.05, 1.0 + 2.0 * j);
+    exact.normalize();
+    Eigen::VectorXcd mu = teichmueller_coefficient(0.4, values * exact);
+    for (Eigen::Index s = 0; s < samples; ++s) mu[s] += Complex(0.1 * std::sin(3 * s), 0.1 * std::cos(5 * s));
+    CoefficientStep all(setting.surface, setting.chart, {}, 0, 1'000'000),
+        few(setting.surface, setting.chart, {}, 0, 300);
+    all.set_space(table);
+    few.set_space(table);
+    const CoefficientStep::Result wanted = all.solve(mu, {}), found = few.solve(mu, {});
+    EXPECT_TRUE(wanted.converged);
+    EXPECT_TRUE(found.converged);
+    EXPECT_LE(found.newton_steps, 30);  // 50 and more with the Hessian of the clusters alone
+    EXPECT_LT((found.direction - wanted.direction).norm(), 1e-3);
+    EXPECT_NEAR(found.k, wanted.k, 1e-6);
+}
+
 /// The annulus .5 … 1 onto .3 … 1 by z|z|^(κ−1): the extremal map with sliding boundary, k = (κ−1)/(κ+1) = .2692640.
 TEST(SlidingRing, EverySpaceSeesTheDilatationOfTheRadialStretch) {
     const double kappa = std::log(0.3) / std::log(0.5), k = (kappa - 1) / (kappa + 1);
