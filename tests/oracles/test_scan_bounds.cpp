@@ -89,5 +89,23 @@ INSTANTIATE_TEST_SUITE_P(Disks, ScanBounds,
                              return name.substr(0, name.find('.'));
                          });
 
+/// Along the legs of the camel boundary values crowd: K is that of quadratic elements there.
+TEST(CrowdedScan, HasABracketOfOnePerCent) {
+    const auto file = test::real_mesh("camel_b.obj");
+    if (file.empty()) GTEST_SKIP() << "no scans in BELTRAMI_TEST_MESHES";
+    const Surface source(read_mesh(file).mesh);
+    for (const double slack : {0.0, 0.5, 1.0}) {
+        SCOPED_TRACE("slack " + std::to_string(slack));
+        ExtremalOptions options;
+        options.slack = slack;
+        const ExtremalMap map = extremal_map(source, boundary_to_disk(source, 0.5), options);
+        expect_no_contradiction(map, std::numeric_limits<double>::infinity());
+        EXPECT_EQ(map.termination, Termination::converged);
+        EXPECT_LT(map.K, 1.01 * map.K_lower);
+        EXPECT_GT(map.K_lower, 6.3);
+        EXPECT_EQ(map.phi.size(), (map.split ? map.split->mesh : source.mesh).face_count());
+    }
+}
+
 }  // namespace
 }  // namespace beltrami

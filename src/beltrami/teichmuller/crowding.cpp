@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
-#include <vector>
-
-#include <Eigen/Cholesky>
 
 #include <beltrami/base/constants.h>
 #include <beltrami/certificate/chart_quadrilateral.h>
@@ -26,61 +23,49 @@ constexpr double kDependent = 1e-3;
 /// Samples below which so many functions would fit anything.
 constexpr int kLeastSamples = 10 * kWaves * (2 * kWaves + 1);
 
-/// The way along the image of each boundary vertex, as an angle, and whether there is one.
-std::pair<Eigen::VectorXd, bool> way_along_image(const std::vector<int>& loop, const Eigen::VectorXcd& map) {
-    const auto n = static_cast<Eigen::Index>(loop.size());
-    Eigen::VectorXd at(n);
-    double length = 0;
-    for (Eigen::Index i = 0; i < n; ++i) {
-        at[i] = length;
-        length += std::abs(map[loop[(i + 1) % n]] - map[loop[i]]);
-    }
-    return {at * (kTurn / length), length > 0};
-}
-
-/// The upper factor R of RᴴR = the Gram matrix of so many of the columns, each scaled to length 1: the one with most
-/// left beside those before it comes next (Cholesky with pivots).
-struct PivotedFactor {
-    std::vector<Eigen::Index> columns;
-    Eigen::MatrixXcd R;
-};
-/// @param upper the Gram matrix of all columns, of length 1
-PivotedFactor pivoted_factor(const Eigen::MatrixXcd& upper) {
-    const Eigen::Index n = upper.cols();
-    const Eigen::MatrixXcd gram = upper.selfadjointView<Eigen::Upper>();
+/// Takes columns in the order of what is left of them beside those before, puts them in front, and leaves the others
+/// out: Cholesky's factorisation, with pivots, of their products.
+/// @return what makes those taken orthonormal, upper triangular
+Eigen::MatrixXcd take_independent(Eigen::MatrixXcd& columns) {
+    Eigen::MatrixXcd gram = complex_gram_upper(columns);
+    gram.triangularView<Eigen::StrictlyLower>() = gram.adjoint();
+    const Eigen::Index n = columns.cols();
+    Eigen::MatrixXcd factor = Eigen::MatrixXcd::Zero(n, n);
     Eigen::VectorXd left = gram.diagonal().real();
-    PivotedFactor result;
-    Eigen::MatrixXcd rows = Eigen::MatrixXcd::Zero(n, n);  // of R, for all columns
-    for (Eigen::Index count = 0; count < n; ++count) {
-        Eigen::Index next = 0;
-        if (!(left.maxCoeff(&next) > kDependent * kDependent)) break;
-        Eigen::RowVectorXcd row = gram.row(next) - rows.col(next).head(count).adjoint() * rows.topRows(count);
-        row /= std::sqrt(left[next]);
-        rows.row(count) = row;
-        left -= row.cwiseAbs2().transpose();
-        result.columns.push_back(next);
-        for (const Eigen::Index taken : result.columns) left[taken] = 0;
+    Eigen::Index count = 0;
+    for (; count < n; ++count) {
+        Eigen::Index most = 0;
+        if (!(left.tail(n - count).maxCoeff(&most) > kDependent * kDependent)) break;
+        most += count;
+        columns.col(count).swap(columns.col(most));
+        gram.col(count).swap(gram.col(most));
+        gram.row(count).swap(gram.row(most));
+        factor.col(count).swap(factor.col(most));
+        std::swap(left[count], left[most]);
+        const double size = std::sqrt(left[count]);
+        factor(count, count) = size;
+        for (Eigen::Index j = count + 1; j < n; ++j) {
+            const Complex before = factor.col(count).head(count).dot(factor.col(j).head(count));
+            factor(count, j) = (gram(count, j) - before) / size;
+            left[j] -= std::norm(factor(count, j));
+        }
     }
-    const auto rank = static_cast<Eigen::Index>(result.columns.size());
-    result.R = rows(Eigen::seqN(0, rank), result.columns);
-    return result;
+    columns.conservativeResize(Eigen::NoChange, count);
+    return factor.topLeftCorner(count, count)
+        .triangularView<Eigen::Upper>()
+        .solve(Eigen::MatrixXcd::Identity(count, count));
 }
 
-/// Columns scaled to length 1 and made orthonormal, those left out that depend on others.
+/// Columns scaled to length 1 and made orthonormal, without those that all but depend on others.
 Eigen::MatrixXcd orthonormal(Eigen::MatrixXcd columns) {
     for (Eigen::Index j = 0; j < columns.cols(); ++j)
         if (const double size = columns.col(j).norm(); size > 0) columns.col(j) /= size;
-    const PivotedFactor factor = pivoted_factor(complex_gram_upper(columns));
-    const auto rank = static_cast<Eigen::Index>(factor.columns.size());
-    const Eigen::MatrixXcd identity = Eigen::MatrixXcd::Identity(rank, rank);
-    Eigen::MatrixXcd combinations = Eigen::MatrixXcd::Zero(columns.cols(), rank);
-    const Eigen::MatrixXcd inverse = factor.R.triangularView<Eigen::Upper>().solve(identity);
-    combinations(factor.columns, Eigen::all) = inverse;
-    columns = complex_product(columns, combinations);
-    // Once more, for what rounding has left: the Gram matrix has the square of the condition.
-    const Eigen::LLT<Eigen::MatrixXcd, Eigen::Upper> again(complex_gram_upper(columns));
-    const Eigen::MatrixXcd correction = again.matrixU().solve(identity);
-    return complex_product(columns, correction);
+    // Twice: the first time leaves rounding over kDependent².
+    for (int pass = 0; pass < 2; ++pass) {
+        const Eigen::MatrixXcd change = take_independent(columns);
+        columns = complex_product(columns, change);
+    }
+    return columns;
 }
 
 /// The K that quadrilaterals of the rim force in the chart.
@@ -118,17 +103,26 @@ Chart uncrowded(const Surface& source, Chart chart, const Eigen::VectorXcd& harm
     return chart;
 }
 
-TabulatedSpace form_product_space(const Surface& source, const BeltramiSolver& solver,
-                                  const Eigen::VectorXcd& harmonic) {
-    const Operators& operators = source.operators;
-    const int samples = operators.sample_count(), forms = 2 * kWaves;
+std::vector<RimNode> rim_nodes(const Surface& source, const Eigen::VectorXcd& map) {
     const std::vector<int>& loop = source.topology.boundary_loops[0];
-    const auto [way, goes_round] = way_along_image(loop, harmonic);
+    std::vector<RimNode> rim;
+    double length = 0;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        rim.push_back({loop[i], length});
+        length += std::abs(map[loop[(i + 1) % loop.size()]] - map[loop[i]]);
+    }
+    if (!(length > 0)) return {};
+    for (RimNode& node : rim) node.way *= kTurn / length;
+    return rim;
+}
+
+TabulatedSpace form_product_space(const Operators& operators, const std::vector<RimNode>& rim,
+                                  const BeltramiSolver& solver) {
+    const int samples = operators.sample_count(), forms = 2 * kWaves;
     Eigen::MatrixXcd form(samples, forms);
-    for (int j = 1; goes_round && j <= kWaves; ++j) {
+    for (int j = 1; !rim.empty() && j <= kWaves; ++j) {
         Eigen::VectorXcd wave = Eigen::VectorXcd::Zero(operators.vertex_count);
-        for (std::size_t i = 0; i < loop.size(); ++i)
-            wave[loop[i]] = std::polar(1.0, j * way[static_cast<Eigen::Index>(i)]);
+        for (const RimNode& node : rim) wave[node.node] = std::polar(1.0, j * node.way);
         wave = solver.solve(wave);
         for (int s = 0; s < samples; ++s) {
             const auto [dz, dzbar] = operators.derivatives(s, wave);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include <beltrami/differentials/tabulated_space.h>
 #include <beltrami/solve/beltrami_solver.h>
 
@@ -21,12 +23,22 @@ double crowded_clip(const Surface& source, const Chart& chart, const Eigen::Vect
 /// The fewest clusters of samples that resolve φ there.
 inline constexpr int kCrowdedClusters = 8'000;
 
+/// A node on the rim of a disk, and its way along the image of the rim as an angle.
+struct RimNode {
+    int node;
+    double way;
+};
+/// The vertices of the rim; none where the image has no length.
+std::vector<RimNode> rim_nodes(const Surface& source, const Eigen::VectorXcd& map);
+
 /// Products of the one-forms ∂F_j and conj(∂̄F_j) of the harmonic functions F_j with the boundary values e^{ijt}, where
-/// t is the way along the image of the boundary, j = 1, …, 6: holomorphic as far as piecewise linear functions are
-/// harmonic, and of the size that φ has in every leg, whatever its share of the chart. Orthonormal in L² of the
-/// surface, without those that all but depend on others; known at the samples.
-/// @param solver factorised for the coefficient 0, with the whole boundary fixed
-TabulatedSpace form_product_space(const Surface& source, const BeltramiSolver& solver,
-                                  const Eigen::VectorXcd& harmonic);
+/// t is the way along the image of the boundary, j = 1, …, 6: holomorphic as far as the elements are harmonic, and of
+/// the size that φ has in every leg, whatever its share of the chart. Orthonormal in L² of the surface, without those
+/// that all but depend on others; known at the samples.
+/// @param operators of any elements
+/// @param rim       all of their nodes on the rim
+/// @param solver    of these operators, factorised for the coefficient 0, with the whole rim fixed
+TabulatedSpace form_product_space(const Operators& operators, const std::vector<RimNode>& rim,
+                                  const BeltramiSolver& solver);
 
 }  // namespace beltrami

@@ -96,7 +96,7 @@ bool PoleChoice::wants_chart_metric() {
 void PoleChoice::take_form_products() {
     const Surface& source = problem_.source();
     const Eigen::VectorXcd& harmonic = problem_.harmonic();
-    products_ = form_product_space(source, problem_.solver(), harmonic);
+    products_ = form_product_space(source.operators, rim_nodes(source, harmonic), problem_.solver());
     const double clip = crowded_clip(source, problem_.chart(), harmonic);
     problem_.set_chart(uncrowded(source, problem_.chart(), harmonic));
     problem_.set_singularities({}, std::max(options_.cluster_count, kCrowdedClusters));

@@ -6,6 +6,7 @@
 
 #include <beltrami/base/error.h>
 #include <beltrami/certificate/chart_quadrilateral.h>
+#include <beltrami/certificate/refined_problem.h>
 #include <beltrami/charts/shape.h>
 #include <beltrami/constraints/boundary_feasibility.h>
 #include <beltrami/homotopy/continuation.h>
@@ -16,6 +17,7 @@
 #include <beltrami/teichmuller/elongation.h>
 #include <beltrami/teichmuller/hamilton_options.h>
 #include <beltrami/teichmuller/outline.h>
+#include <beltrami/teichmuller/quadratic_products.h>
 #include <beltrami/teichmuller/record.h>
 #include <beltrami/teichmuller/record_proofs.h>
 
@@ -54,6 +56,8 @@ constexpr int kStepsAtBends = 1;
 /// the third step costs more than it evens out.
 constexpr int kStepsOnScans = 2;
 constexpr double kNoiseOfScans = 0.005;
+/// Meshes with more faces are fine enough for linear elements, and φ of all of their quadratic ones would fill memory.
+constexpr int kMostQuadraticFaces = 20'000;
 /// Edges between two corners that are taken at their word.
 constexpr int kResolvedEdges = 12;
 
@@ -375,8 +379,10 @@ ExtremalMap PrescribedSolver::record() const {
     // Where values crowd, what φ shows is the least of what is known.
     ExtremalOptions how = options_;
     if (poles_.products() && !how.prove) how.prove = true;
-    record_proofs(source_, boundary_, how, result);
-    if (poles_.products() && *how.prove) record_finer_pair(source_, boundary_, result);
+    add_proofs(source_, boundary_, how, result);
+    if (poles_.products() && *how.prove) add_finer_pair(source_, boundary_, largest_known(result), result);
+    if (poles_.products()) narrow_by_quadratic_elements(result);
+    raise_to_proofs(result);
     withdraw_unconfirmed(result);
     return result;
 }
@@ -418,6 +424,42 @@ void PrescribedSolver::record_quadrilaterals(ExtremalMap& result) const {
     for (const int v : source_.topology.boundary_loops[0]) images.push_back(found_.map[v]);
     const double K = chart_quadrilateral_estimate(source_, problem_.chart(), images);
     if (K > 1) result.bounds.push_back({Bound::Kind::moduli, K, Bound::Of::extremal, false});
+}
+
+/// Where values crowd and the bracket is open, or K is below what is proved: the iteration goes on with quadratic
+/// elements, whose K, bound and φ are taken where they show the extremal map better. The map stays.
+void PrescribedSolver::narrow_by_quadratic_elements(ExtremalMap& result) const {
+    const double known = largest_known(result);
+    const bool below = clearly_below(result.K, known);
+    const bool open = below || result.K > (1 + PoleChoice::kPolesNeeded) * known;
+    const bool can = all_triangles(source_.mesh) && source_.mesh.face_count() <= kMostQuadraticFaces;
+    if (!open || !can || options_.sharpen.value_or(0) < 0) return;
+    QuadraticProductsOptions how;
+    const int before = result.iterations;
+    if (options_.progress)
+        how.progress = [this, before](int step, double k) { return options_.progress(before + step, k); };
+    // What evening has done to φ is of no use to them.
+    const FoundMap& start = before_evening_ ? *before_evening_ : found_;
+    const QuadraticProducts quadratic =
+        quadratic_products(source_, boundary_, problem_.harmonic(), start.step.phi, start.step.k, how);
+    result.factorizations += quadratic.factorizations;
+    result.iterations += static_cast<int>(quadratic.history.size());
+    result.history.insert(result.history.end(), quadratic.history.begin(), quadratic.history.end());
+    const ReichStrebel& found = quadratic.integrals;
+    if (!found.valid || !quadratic.settled || clearly_below(found.estimate, known)) return;
+    const double K = std::min(found.estimate, result.distortion.K_max());
+    const double narrow = std::max(K, known) / std::max(found.lower, known);
+    if (!below && !(narrow < result.K / known)) return;
+    std::erase_if(result.bounds, [](const Bound& bound) {
+        return bound.kind == Bound::Kind::reich_strebel || bound.kind == Bound::Kind::reich_strebel_estimate;
+    });
+    result.bounds.push_back({Bound::Kind::reich_strebel, found.lower, Bound::Of::extremal, false});
+    result.bounds.push_back({Bound::Kind::reich_strebel_estimate, found.estimate, Bound::Of::extremal, false});
+    result.K_lower = std::max(1.0, found.lower);
+    result.K = std::max(K, result.K_lower);
+    result.k = k_of(result.K);
+    result.differential = problem_.differential(quadratic.space, quadratic.direction);
+    result.phi = quadratic.phi;
 }
 
 /// @param of_found in the metric of the iteration

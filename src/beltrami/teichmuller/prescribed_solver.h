@@ -52,6 +52,7 @@ class PrescribedSolver final : public ProblemSolver {
     void record_homotopy(ExtremalMap& result) const;
     void record_bounds(ExtremalMap& result) const;
     void record_quadrilaterals(ExtremalMap& result) const;
+    void narrow_by_quadratic_elements(ExtremalMap& result) const;
     SolutionBounds best_bounds(const Distortion& of_found) const;
     void record_corners(ExtremalMap& result) const;
     bool resolved(const BoundaryCorner& corner) const;

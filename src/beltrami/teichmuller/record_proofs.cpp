@@ -36,12 +36,30 @@ double largest_proof(const std::vector<Bound>& bounds) {
     return K;
 }
 
+namespace {
+
+/// What is proved, or forced by quadrilaterals in the chart: an estimate, but no less a sign that φ does not show the
+/// map.
+double forced(const std::vector<Bound>& bounds) {
+    double K = largest_proof(bounds);
+    for (const Bound& bound : bounds)
+        if (bound.kind == Bound::Kind::moduli) K = std::max(K, bound.K);
+    return K;
+}
+
+}  // namespace
+
+double largest_known(const ExtremalMap& result) {
+    return std::max(result.K_lower, forced(result.bounds));
+}
+
+bool clearly_below(double K, double known) {
+    return K < (1 - kErrorOfEstimate) * known;
+}
+
 void raise_to_proofs(ExtremalMap& result) {
     result.K_lower_proved = largest_proof(result.bounds);
-    // What quadrilaterals force in the chart is an estimate, but no less a sign that φ does not show the map.
-    double least = result.K_lower_proved;
-    for (const Bound& bound : result.bounds)
-        if (bound.kind == Bound::Kind::moduli) least = std::max(least, bound.K);
+    const double least = forced(result.bounds);
     result.K_lower = std::max(result.K_lower, least);
     if (!(result.K < least)) return;
     double found = result.K;
@@ -54,7 +72,7 @@ void raise_to_proofs(ExtremalMap& result) {
         return bound.kind == Bound::Kind::attained && bound.rigorous &&
                bound.K <= (1 + kErrorOfEstimate) * result.K_lower_proved;
     });
-    if (attained || !(found < (1 - kErrorOfEstimate) * result.K)) return;
+    if (attained || !clearly_below(found, result.K)) return;
     if (result.termination == Termination::converged) result.termination = Termination::below_bound;
     result.noise.reset();  // an estimate by the same differentials
     std::erase_if(result.warnings, [](const Warning& warning) { return warning.kind == WarningKind::below_bound; });
@@ -66,8 +84,8 @@ void raise_to_proofs(ExtremalMap& result) {
                                        ": the differentials at hand do not show the extremal map; a finer mesh would"});
 }
 
-void record_proofs(const Surface& source, const BoundaryCondition& boundary, const ExtremalOptions& options,
-                   ExtremalMap& result) {
+void add_proofs(const Surface& source, const BoundaryCondition& boundary, const ExtremalOptions& options,
+                ExtremalMap& result) {
     ProvedBoundsOptions how;
     const bool never = options.sharpen.value_or(0) < 0;
     if (options.prove || never)
@@ -75,18 +93,27 @@ void record_proofs(const Surface& source, const BoundaryCondition& boundary, con
     const ProvedBounds proved = proved_bounds(source, boundary, result.map, how);
     result.factorizations += proved.factorizations;
     result.bounds.insert(result.bounds.end(), proved.bounds.begin(), proved.bounds.end());
+}
+
+void record_proofs(const Surface& source, const BoundaryCondition& boundary, const ExtremalOptions& options,
+                   ExtremalMap& result) {
+    add_proofs(source, boundary, options, result);
     raise_to_proofs(result);
 }
 
-void record_finer_pair(const Surface& source, const BoundaryCondition& boundary, ExtremalMap& result) {
+void add_finer_pair(const Surface& source, const BoundaryCondition& boundary, double known, ExtremalMap& result) {
     RefinedPairOptions how;
     // Where K is no more than what is proved, φ does not show how much more there is.
-    if (result.K > result.K_lower) how.enough = result.K / (1 + kNarrow);
+    if (result.K > known) how.enough = result.K / (1 + kNarrow);
     const bool refines = all_triangles(source.mesh) && source.mesh.face_count() <= how.most_faces;
-    if (!refines || !(result.K_lower < how.enough)) return;
+    if (!refines || !(known < how.enough)) return;
     const RefinedPair pair = refined_pair_bound(source, boundary, result.map, how);
     result.factorizations += pair.factorizations;
     raise_pair(pair.K, result);
+}
+
+void record_finer_pair(const Surface& source, const BoundaryCondition& boundary, ExtremalMap& result) {
+    add_finer_pair(source, boundary, result.K_lower, result);
     raise_to_proofs(result);
 }
 

@@ -58,7 +58,7 @@ TEST(Crowding, ProductsAreOrthonormalAndHoldTheHopfDifferential) {
     const Surface source(test::bump(2'000));
     const BeltramiSolver solver = dirichlet_solver(source);
     const Eigen::VectorXcd harmonic = harmonic_map(source, boundary_to_disk(source, 0));
-    const TabulatedSpace space = form_product_space(source, solver, harmonic);
+    const TabulatedSpace space = form_product_space(source.operators, rim_nodes(source, harmonic), solver);
     ASSERT_TRUE(space.complex_coefficients());
     EXPECT_GT(space.size(), 10);
     const Eigen::MatrixXcd& values = *space.tabulated();
