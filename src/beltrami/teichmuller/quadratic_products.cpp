@@ -7,6 +7,7 @@
 
 #include <beltrami/base/constants.h>
 #include <beltrami/certificate/quadratic_map.h>
+#include <beltrami/operators/distortion.h>
 #include <beltrami/teichmuller/crowding.h>
 #include <beltrami/teichmuller/hamilton.h>
 
@@ -19,7 +20,7 @@ constexpr int kSamplesOfTriangle = 3;
 /// Samples that are held may have this part of ∫|φ|.
 constexpr double kMostHeld = 1e-3;
 /// φ rounded off as in the rough iteration before, and a c-step solved to this part of the last change of φ.
-constexpr double kQuadraticRounding = 0.005, kQuadraticStep = 0.05;
+constexpr double kQuadraticRounding = 0.005, kQuadraticStep = 0.2;
 /// The system is factorised for the harmonic functions and for each map.
 constexpr int kFactorizationsExpected = 8;
 
