@@ -18,8 +18,8 @@ constexpr int kPointsPerRationalChunk = 512;
 
 }  // namespace
 
-std::unique_ptr<DifferentialSpace> RationalSpace::starting_space(const Singularities& singularities,
-                                                                 Quadrature quadrature, int largest_degree) {
+std::unique_ptr<RationalSpace> RationalSpace::empty_space(const Singularities& singularities, Quadrature quadrature,
+                                                          int largest_degree) {
     int largest_power = 0;
     for (const auto& hole : singularities.holes) largest_power = std::max(largest_power, hole.largest_power);
     Family family{singularities, std::move(quadrature), largest_degree, largest_power, {}};
@@ -27,13 +27,34 @@ std::unique_ptr<DifferentialSpace> RationalSpace::starting_space(const Singulari
         family.curves.emplace_back(curve);
         family.levels = std::max(family.levels, family.curves.back().levels());
     }
-    auto space = std::unique_ptr<RationalSpace>(new RationalSpace(std::make_shared<const Family>(std::move(family))));
-    std::vector<Generator> first =
-        space->raise(std::min(kFirstDegree, largest_degree), std::min(kFirstPower, largest_power));
-    for (const Complex pin : singularities.pins) first.push_back(Pole{pin, 1.0, 1});
-    for (const auto& held : singularities.held) first.push_back({Pole{held.at, 1.0, 1}, held.residue});
-    space->add(first);
+    return std::unique_ptr<RationalSpace>(new RationalSpace(std::make_shared<const Family>(std::move(family))));
+}
+
+std::unique_ptr<DifferentialSpace> RationalSpace::starting_space(const Singularities& singularities,
+                                                                 Quadrature quadrature, int largest_degree) {
+    auto space = empty_space(singularities, std::move(quadrature), largest_degree);
+    space->add(space->take_first());
     return space;
+}
+
+std::unique_ptr<DifferentialSpace> RationalSpace::largest_space(const Singularities& singularities,
+                                                                Quadrature quadrature, int largest_degree) {
+    auto space = empty_space(singularities, std::move(quadrature), largest_degree);
+    std::vector<Generator> all = space->take_first();
+    const auto take = [&](const std::vector<Generator>& next) { all.insert(all.end(), next.begin(), next.end()); };
+    take(space->take_corner_poles());
+    while (space->levels_ < space->family_->levels) take(space->take_densities());
+    take(space->raise(largest_degree, space->family_->largest_power));
+    space->add(all);
+    return space;
+}
+
+std::vector<RationalSpace::Generator> RationalSpace::take_first() {
+    std::vector<Generator> first =
+        raise(std::min(kFirstDegree, family_->largest_degree), std::min(kFirstPower, family_->largest_power));
+    for (const Complex pin : family_->singularities.pins) first.push_back(Pole{pin, 1.0, 1});
+    for (const auto& held : family_->singularities.held) first.push_back({Pole{held.at, 1.0, 1}, held.residue});
+    return first;
 }
 
 std::vector<RationalSpace::Generator> RationalSpace::take_corner_poles() {

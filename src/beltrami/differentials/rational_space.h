@@ -32,6 +32,9 @@ class RationalSpace final : public DifferentialSpace {
     /// A space to start from, which can grow up to a degree of the polynomials, and each hole's largest power.
     static std::unique_ptr<DifferentialSpace> starting_space(const Singularities& singularities, Quadrature quadrature,
                                                              int largest_degree);
+    /// The one to which that can grow.
+    static std::unique_ptr<DifferentialSpace> largest_space(const Singularities& singularities, Quadrature quadrature,
+                                                            int largest_degree);
 
     int size() const override { return static_cast<int>(transform_.cols()); }
     bool complex_coefficients() const override { return !family_->singularities.real(); }
@@ -65,6 +68,11 @@ class RationalSpace final : public DifferentialSpace {
     };
 
     explicit RationalSpace(std::shared_ptr<const Family> family) : family_(std::move(family)) {}
+    /// Without functions.
+    static std::unique_ptr<RationalSpace> empty_space(const Singularities& singularities, Quadrature quadrature,
+                                                      int largest_degree);
+    /// Those of the first space, which count as taken.
+    std::vector<Generator> take_first();
     /// Appends functions and orthonormalises them against those that are there.
     void add(const std::vector<Generator>& more);
     /// The poles at the corners, which count as taken.

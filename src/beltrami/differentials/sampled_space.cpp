@@ -84,6 +84,11 @@ SampledSpace::Mode SampledSpace::mode_on_large_mesh() {
         for (int i = grid_.offsets[c]; i < grid_.offsets[c + 1]; ++i) centres_[c] += chart_.positions[grid_.samples[i]];
         centres_[c] /= static_cast<double>(grid_.offsets[c + 1] - grid_.offsets[c]);
     }
+    nodes_.positions.resize(kNodes * centres_.size());
+    nodes_.derivatives = Eigen::VectorXcd::Ones(nodes_.positions.size());
+    for (Eigen::Index c = 0; c < centres_.size(); ++c)
+        for (int q = 0; q < kNodes; ++q)
+            nodes_.positions[kNodes * c + q] = centres_[c] + 0.5 * grid_.size[c] * node_direction(q);
     return Mode::interpolated;
 }
 
@@ -115,13 +120,7 @@ void SampledSpace::set(const DifferentialSpace& space) {
         values_ = SplitMatrix(values);
         return;
     }
-    ChartPoints nodes;
-    nodes.positions.resize(kNodes * centres_.size());
-    nodes.derivatives = Eigen::VectorXcd::Ones(nodes.positions.size());
-    for (Eigen::Index c = 0; c < centres_.size(); ++c)
-        for (int q = 0; q < kNodes; ++q)
-            nodes.positions[kNodes * c + q] = centres_[c] + 0.5 * grid_.size[c] * node_direction(q);
-    values_ = SplitMatrix(space.generators(nodes));
+    if (!space.quick()) values_ = SplitMatrix(space.generators(nodes_));
 }
 
 ChartPoints SampledSpace::chunk(int first, int last) const {
@@ -129,7 +128,9 @@ ChartPoints SampledSpace::chunk(int first, int last) const {
 }
 
 Eigen::VectorXcd SampledSpace::combination(const Eigen::VectorXcd& coefficients) const {
-    if (mode_ == Mode::interpolated) return interpolate(values_.times(space_->of_generators(coefficients)));
+    if (mode_ == Mode::interpolated)
+        return interpolate(space_->quick() ? space_->combination(nodes_, coefficients)
+                                           : values_.times(space_->of_generators(coefficients)));
     if (mode_ == Mode::dense) return values_.times(space_->of_generators(coefficients));
     const int samples = static_cast<int>(chart_.positions.size());
     Eigen::VectorXcd phi(samples);
@@ -170,7 +171,9 @@ Eigen::VectorXcd SampledSpace::interpolate(const Eigen::VectorXcd& at_nodes) con
 }
 
 Eigen::MatrixXcd SampledSpace::pair(const Eigen::MatrixXcd& weights) const {
-    if (mode_ == Mode::interpolated) return space_->from_generators(values_.transposed_times(gather(weights)));
+    if (mode_ == Mode::interpolated)
+        return space_->quick() ? space_->pair(nodes_, gather(weights))
+                               : space_->from_generators(values_.transposed_times(gather(weights)));
     if (mode_ == Mode::dense) return space_->from_generators(values_.transposed_times(weights));
     Eigen::MatrixXcd included = weights;
     const int samples = static_cast<int>(chart_.positions.size());
@@ -185,7 +188,7 @@ Eigen::MatrixXcd SampledSpace::pair(const Eigen::MatrixXcd& weights) const {
 
 /// What weights at the samples are as weights at the nodes: the adjoint of interpolate().
 Eigen::MatrixXcd SampledSpace::gather(const Eigen::MatrixXcd& weights) const {
-    Eigen::MatrixXcd at_nodes(values_.rows(), weights.cols());
+    Eigen::MatrixXcd at_nodes(nodes_.positions.size(), weights.cols());
     parallel_for(
         0, grid_.cell_count(),
         [&](int first, int last) {

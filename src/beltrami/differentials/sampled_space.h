@@ -26,7 +26,8 @@ void take_means(const SamplePoints& means, const Eigen::MatrixXcd& at_points, Ei
 /// On small meshes the values of all functions at all samples are kept, unless the space computes them as quickly. On
 /// large ones, and where that would be many values still, functions are evaluated at four nodes per cell of a grid over
 /// the canonical domain only: inside a cell a holomorphic function is its cubic interpolant through four points of a
-/// circle. That costs a few operations a sample instead of a few per function and sample. Where singularities would ask
+/// circle. That costs a few operations a sample instead of a few per function and sample; spaces that compute values
+/// quickly do so at the nodes each time. Where singularities would ask
 /// for nearly as many cells as samples, functions are evaluated afresh each time. A tabulated space is its values at
 /// all samples, whatever their number.
 class SampledSpace {
@@ -73,8 +74,9 @@ class SampledSpace {
     Mode mode_ = Mode::dense;      ///< of the current space
     ChartGrid grid_{{}, {0}, {}, {}};
     Eigen::VectorXcd centres_;  ///< #cells
+    ChartPoints nodes_;         ///< 4 #cells in the canonical domain
     SplitMatrix at_means_;      ///< of the generators: #points of the means × g
-    SplitMatrix values_;        ///< of the generators: #S × g; or 4 #cells × g in the canonical domain
+    SplitMatrix values_;        ///< of the generators: #S × g; or #nodes × g; empty where they are computed each time
 };
 
 }  // namespace beltrami

@@ -37,8 +37,6 @@ constexpr int kGrownIterations = 15;
 constexpr double kWorse = 1e-4;
 /// A change above this that hardly falls is a φ that turns back and forth; the least part of a step that is then taken.
 constexpr double kTurnsBack = 0.5, kLeastRelaxation = 0.125;
-/// The f-step is solved to this part of the change that the c-step will see.
-constexpr double kSolveBelowChange = 1e-3;
 
 /// (direction of φ, k) as one real vector for the accelerated fixed-point iteration.
 Eigen::VectorXd pack(const Eigen::VectorXcd& direction, double k) {
@@ -76,6 +74,7 @@ class Settling {
         if (gap > options_.tight && change < kLargeChange &&
             std::max(change * change, k_change / step.k) < options_.within_bracket * gap)
             return true;
+        if (gap - change * change > options_.widest) return true;
         if (!step.converged) return false;
         const bool stalled =
             least_change_ < kStalledBelow && since_least_ >= kStalledFor && k_change < kStalledChangeOfK;
@@ -218,11 +217,11 @@ Eigen::VectorXcd HamiltonIteration::step_from(const HamiltonState& state, double
     const Eigen::VectorXcd& phi = coefficient_step_.values(state.direction);
     const Eigen::VectorXcd nu = coefficient_step_.coefficient(state.k, phi);
     map_step_.weigh(phi);
-    map_step_.solve(nu, kSolveBelowChange * std::min(last_change, kLargeChange));
+    const double change = std::min(last_change, kLargeChange);
+    map_step_.solve(nu, options_.solve_below_change * change);
     ++iterations_;
     Eigen::VectorXcd mu = beltrami_coefficient(map_step_.derivatives());
-    step_ = coefficient_step_.solve(mu, state.direction,
-                                    options_.step_below_change * std::min(last_change, kLargeChange), kNewtonSteps);
+    step_ = coefficient_step_.solve(mu, state.direction, options_.step_below_change * change, kNewtonSteps);
     return mu;
 }
 

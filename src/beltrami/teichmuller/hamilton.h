@@ -1,6 +1,7 @@
 #pragma once
 
 #include <any>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -31,10 +32,15 @@ class HamiltonIteration {
         int max_iterations = 60;
         /// The c-step is solved to this part of the change of φ in the last iteration.
         double step_below_change = 0.01;
+        /// … and the f-step to this part of it.
+        double solve_below_change = 1e-3;
         /// All has settled too once the square of the change of φ and the part by which k changes are below this part
         /// of the bracket, which no further steps would narrow; unless the bracket is below `tight`, that of smooth
         /// data, for which k is wanted to all digits. 0: never.
         double within_bracket = 0, tight = 0;
+        /// All has settled too once the bracket will stay wider than this, as part of K: of second order in φ, it can
+        /// become narrower by the square of φ's change.
+        double widest = std::numeric_limits<double>::infinity();
         double growth = 1e-5;
         /// The c-step in a larger space is solved to this change of φ, k then to its square.
         double growing_step = 0;

@@ -32,8 +32,9 @@ class PoleChoice {
     bool narrow_bends() const { return withheld() && widest_bracket_ < kPolesNeeded; }
     /// Whether singularities that were withheld are needed after all, for all that a bracket of K shows (as part of K).
     bool needed(double bracket) const { return withheld() && bracket > widest_bracket_; }
-    bool smooth() const { return smooth_; }        ///< φ has no singularities
-    bool elongated() const { return elongated_; }  ///< see elongation.h
+    double widest_bracket() const { return widest_bracket_; }  ///< with which φ may do without them
+    bool smooth() const { return smooth_; }                    ///< φ has no singularities
+    bool elongated() const { return elongated_; }              ///< see elongation.h
     /// Noise of the chart of a disk in space, as part of k; 0 where it was not asked for (chart_metric.h).
     double noise() const { return noise_; }
     /// The space of φ where the boundary values crowd (crowding.h); null elsewhere.

@@ -38,6 +38,10 @@ constexpr double kWithinBracket = 0.01;
 constexpr double kWithinBracketAtPoles = 0.03;
 /// … and where values crowd, once evening out has not helped: further steps turn φ to and fro at single faces.
 constexpr double kWithinBracketOfProducts = 3e-4;
+/// An f-step in the plane of a chart is solved to this part of φ's change, a tenth of what the c-step tells apart.
+constexpr double kSolveBelowChangeInPlane = 5e-3;
+/// Poles that are withheld come as soon as the bracket without them is wider by this factor than it may be.
+constexpr double kClearlyWider = 1.1;
 /// The bracket of a smooth problem, as part of K, times the number of samples, is smaller (a bump's .7).
 constexpr double kTightPerSample = 4;
 /// From here on coefficients of faces are too noisy for K even there.
@@ -291,8 +295,10 @@ HamiltonIteration::Options PrescribedSolver::adapted(HamiltonIteration::Options 
     if (poles_.smooth()) adapt_to_smooth(options_, how);
     if (problem_.chart_metric()) {
         how.within_bracket = problem_.singular() ? kWithinBracketAtPoles : kWithinBracket;
+        how.solve_below_change = kSolveBelowChangeInPlane;
         how.tight = kTightPerSample / source_.operators.sample_count();
     }
+    if (poles_.withheld()) how.widest = kClearlyWider * poles_.widest_bracket();
     if (poles_.products()) how.within_bracket = kWithinBracketOfProducts;
     return how;
 }

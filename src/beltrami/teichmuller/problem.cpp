@@ -173,11 +173,9 @@ std::unique_ptr<DifferentialSpace> ExtremalProblem::starting_space(int largest_d
         return PolynomialSpace::starting_space(largest_degree);
     }
     const QuadraturePoints& quadrature = coefficient_step_->quadrature();
-    std::unique_ptr<DifferentialSpace> space =
-        RationalSpace::starting_space(singularities_, {quadrature.points, quadrature.weights}, largest_degree);
-    if (chart_metric_)
-        while (auto larger = space->refined()) space = std::move(larger);
-    return space;
+    RationalSpace::Quadrature of_space{quadrature.points, quadrature.weights};
+    return chart_metric_ ? RationalSpace::largest_space(singularities_, std::move(of_space), largest_degree)
+                         : RationalSpace::starting_space(singularities_, std::move(of_space), largest_degree);
 }
 
 namespace {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 #include <beltrami/differentials/rational_space.h>
@@ -154,6 +155,23 @@ TEST(RationalSpace, IsPreliminaryUntilCornersHaveTheirPoles) {
     Singularities smooth = all_kinds();
     smooth.corners.clear();
     EXPECT_FALSE(tower(smooth, 10)[0]->preliminary());
+}
+
+TEST(RationalSpace, TheLargestSpaceIsTheOneThatGrowsToTheEnd) {
+    const Singularities singularities = all_kinds();
+    const RationalSpace::Quadrature quadrature = grid(singularities);
+    std::unique_ptr<DifferentialSpace> grown = RationalSpace::starting_space(singularities, quadrature, 12);
+    while (auto larger = grown->refined()) grown = std::move(larger);
+    const std::unique_ptr<DifferentialSpace> whole = RationalSpace::largest_space(singularities, quadrature, 12);
+    EXPECT_FALSE(whole->preliminary());
+    EXPECT_EQ(whole->refined(), nullptr);
+    ASSERT_EQ(whole->size(), grown->size());
+    // Both bases are orthonormal: their products are those of one space exactly if they are a unitary matrix.
+    const Eigen::MatrixXcd a = whole->evaluate(in_domain(quadrature.points)),
+                           b = grown->evaluate(in_domain(quadrature.points));
+    const Eigen::MatrixXcd products = a.adjoint() * quadrature.weights.asDiagonal() * b;
+    const Eigen::MatrixXcd identity = Eigen::MatrixXcd::Identity(whole->size(), whole->size());
+    EXPECT_LT((products.adjoint() * products - identity).norm(), 1e-7);
 }
 
 TEST(RationalSpace, CombinationIsTheProductWithTheBasis) {
