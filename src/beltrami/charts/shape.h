@@ -1,9 +1,11 @@
 #pragma once
 
+#include <any>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <beltrami/base/public.h>
@@ -34,6 +36,14 @@ class Shape {
     /// Keeps a circle domain of this very surface that was computed before; one that is there already stays.
     /// @throw Error bad_option unless it has a place for every vertex
     void keep(CircleDomainChart circles) const;
+    /// What is worked out once for this surface and kept under a name: by @p make, when it is first asked for.
+    template <class T, class Make>
+    const T& once(const std::string& name, const Make& make) const {
+        const std::scoped_lock lock(mutex_);
+        std::any& kept = once_[name];
+        if (!kept.has_value()) kept = T(make());
+        return std::any_cast<const T&>(kept);
+    }
     /// The same surface where no edge across it joins two boundary vertices (split_bridges); this one if there is no
     /// such edge.
     const Shape& without_bridges() const;
@@ -46,6 +56,7 @@ class Shape {
     mutable std::recursive_mutex mutex_;
     mutable std::map<int, Chart> charts_;
     mutable std::map<int, CircleDomainChart> circles_;
+    mutable std::map<std::string, std::any> once_;
     mutable bool examined_ = false;  ///< for bridges
     mutable std::optional<SplitProblem> bridges_;
     mutable std::unique_ptr<const Surface> split_surface_;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <string>
 
 #include <beltrami/base/error.h>
+#include <beltrami/charts/shape.h>
 #include <beltrami/differentials/laurent_space.h>
 #include <beltrami/differentials/one_form_squares.h>
 #include <beltrami/differentials/projected_space.h>
@@ -31,11 +33,18 @@ ExtremalOptions::Space automatic_kind(const CircleDomainChart& domain, bool quad
     return quadrilateral ? Space::one_form_squares : Space::projection;
 }
 
+/// Under which a shape keeps its projected differentials.
+std::string name_of_projection(int outer_loop, const std::vector<int>& marked) {
+    std::string name = "differentials by projection, outer loop " + std::to_string(outer_loop);
+    for (const int v : marked) name += ", " + std::to_string(v);
+    return name;
+}
+
 }  // namespace
 
 AdmissibleDifferentials admissible_differentials(const Surface& source, const CircleDomainChart& domain,
                                                  ExtremalOptions::Space wanted, const std::vector<int>& marked,
-                                                 int dimension, BeltramiSolver* solver) {
+                                                 int dimension, BeltramiSolver* solver, const Shape* shape) {
     using Space = ExtremalOptions::Space;
     AdmissibleDifferentials result;
     result.kind = wanted;
@@ -57,8 +66,11 @@ AdmissibleDifferentials admissible_differentials(const Surface& source, const Ci
         ProjectionOptions how;
         how.marked = marked;
         how.tangents = circle_tangents(source, domain);
-        how.solver = solver;
-        ProjectedSpace projected = projected_space(source, domain.chart, how);
+        // What is kept must not depend on whose solver it was.
+        if (!shape) how.solver = solver;
+        const auto project = [&] { return projected_space(source, domain.chart, how); };
+        ProjectedSpace projected =
+            shape ? shape->once<ProjectedSpace>(name_of_projection(domain.outer_loop(), marked), project) : project();
         result.gap = projected.gap;
         result.warnings = std::move(projected.warnings);
         result.space = std::make_unique<TabulatedSpace>(std::move(projected.space));

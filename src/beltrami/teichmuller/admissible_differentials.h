@@ -13,6 +13,8 @@
 
 namespace beltrami {
 
+class Shape;
+
 /// The admissible differentials of a source some or all of whose boundary slides, and the chart in which they are
 /// written down.
 struct AdmissibleDifferentials {
@@ -35,9 +37,10 @@ struct AdmissibleDifferentials {
 /// @param marked    vertices in the order of the loops
 /// @param dimension by theory
 /// @param solver    of the source's f-step, which projections may use; or null
+/// @param shape     of the source, which keeps what projections find; or null
 /// @throw Error bad_option, not_solved
 AdmissibleDifferentials admissible_differentials(const Surface& source, const CircleDomainChart& domain,
                                                  ExtremalOptions::Space wanted, const std::vector<int>& marked,
-                                                 int dimension, BeltramiSolver* solver);
+                                                 int dimension, BeltramiSolver* solver, const Shape* shape = nullptr);
 
 }  // namespace beltrami

@@ -55,8 +55,9 @@ Distance distance_of(const ModulusBracket& a, const ModulusBracket& b) {
             half_log(std::max(a.upper / b.lower, b.upper / a.lower)), true};
 }
 
-/// The options with the shapes' charts.
+/// The options with the shapes' charts, for maps of which K alone is wanted.
 ExtremalOptions with_charts_of(ExtremalOptions options, const std::vector<const Shape*>& shapes) {
+    options.places = false;
     options.shapes.insert(options.shapes.end(), shapes.begin(), shapes.end());
     return options;
 }

@@ -68,6 +68,8 @@ struct ExtremalOptions : IterationOptions {
     /// Every loop's vertices start so many radians ahead of where they would (one number per loop of the source; empty:
     /// none). The result does not depend on it.
     std::vector<double> start_turns;
+    /// Whether it is found where on the faces of a target mesh vertices go (ExtremalMap::places, positions).
+    bool places = true;
 
     /// @throw Error bad_option naming the first impossible value
     void validate() const;

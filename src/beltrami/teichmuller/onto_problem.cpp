@@ -128,7 +128,7 @@ AdmissibleDifferentials OntoProblem::differentials(const Eigen::VectorXcd&, Belt
     const int dimension =
         dimension_of_differentials(static_cast<int>(domain().holes.size()), static_cast<int>(marked_.size()));
     AdmissibleDifferentials result =
-        admissible_differentials(source(), domain(), options_.space, marked_, dimension, &solver);
+        admissible_differentials(source(), domain(), options_.space, marked_, dimension, &solver, shape());
     result.expected_dimension = dimension;
     result.poles = marked_;
     std::sort(result.poles.begin(), result.poles.end());
@@ -192,7 +192,7 @@ std::optional<ModulusBracket> OntoProblem::ring_modulus_of_target() const {
 
 /// From the target's circle domain back to its faces.
 void OntoProblem::record(ExtremalMap& result) const {
-    if (!target_surface_) return;
+    if (!target_surface_ || !options_.places) return;
     const std::vector<Complex> images(result.map.begin(), result.map.end());
     result.places = locate_in_chart(*target_surface_, target_circles_->chart.vertices, images);
     result.positions = positions_on(target_surface_->mesh, result.places);

@@ -9,14 +9,6 @@ namespace {
 /// A hole whose centre is nearer to that of the disk says nothing about directions.
 constexpr double kOffCentre = 1e-3;
 
-/// The circle domain of a source, that of its shape if there is one.
-/// @param mapped the source without bridges
-CircleDomainChart circles_of(const Surface& source, const Surface& mapped, int outer_loop,
-                             const std::vector<const Shape*>& shapes) {
-    const Shape* shape = shape_of(source, shapes);
-    return shape ? shape->without_bridges().circles(outer_loop) : circle_domain_chart(mapped, outer_loop);
-}
-
 }  // namespace
 
 SlidingProblem::SlidingProblem(const Surface& given, PreparedProblem prepared, int outer_loop, const char* kind,
@@ -29,8 +21,16 @@ SlidingProblem::SlidingProblem(const Surface& given, PreparedProblem prepared, i
       shapes_(std::move(shapes)) {}
 
 const CircleDomainChart& SlidingProblem::domain() const {
-    if (!domain_) domain_ = circles_of(given_, source_, outer_loop_, shapes_);
+    if (!domain_) {
+        const Shape* kept = shape();
+        domain_ = kept ? kept->circles(outer_loop_) : circle_domain_chart(source_, outer_loop_);
+    }
     return *domain_;
+}
+
+const Shape* SlidingProblem::shape() const {
+    const Shape* given = shape_of(given_, shapes_);
+    return given ? &given->without_bridges() : nullptr;
 }
 
 double SlidingProblem::phase() const {

@@ -67,6 +67,8 @@ class SlidingProblem {
                    std::vector<const Shape*> shapes = {});
 
     int outer_loop() const { return outer_loop_; }
+    /// Of source(); null if it is none of the shapes.
+    const Shape* shape() const;
 
   private:
     const Surface& given_;
