@@ -8,6 +8,7 @@
 
 #include <beltrami/base/parallel.h>
 #include <beltrami/differentials/chart_grid.h>
+#include <beltrami/linear/complex_columns.h>
 #include <beltrami/linear/dense.h>
 
 namespace beltrami {
@@ -44,25 +45,10 @@ constexpr double kFirstRate = 0.2;
 /// Gradients are exact where the norm is flat to rounding: so many rounds more, down to such a change.
 constexpr int kFlatRounds = 3;
 constexpr double kExact = 1e-11;
-/// Points that a thread takes at once.
-constexpr int kDualPoints = 512;
 /// Columns of the Hessian's rows that a thread fills at once.
 constexpr int kHessianColumns = 8;
 /// Points of a finer norm whose rows are there at once.
 constexpr Eigen::Index kHessianPoints = 8192;
-
-/// φ_c at the points of a basis.
-Eigen::VectorXcd combination(const Eigen::MatrixXcd& basis, const Eigen::VectorXcd& c) {
-    Eigen::VectorXcd phi(basis.rows());
-    parallel_for(
-        0, static_cast<int>(basis.rows()),
-        [&](int first, int last) {
-            const int count = last - first;
-            phi.segment(first, count).noalias() = basis.middleRows(first, count) * c;
-        },
-        kDualPoints);
-    return phi;
-}
 
 /// √(|φ|² + δ²), without the care that std::abs takes of overflow.
 Eigen::VectorXd sizes_of(const Eigen::VectorXcd& phi, double delta) {
@@ -102,13 +88,7 @@ Eigen::VectorXcd dual_gradient(const Eigen::MatrixXcd& basis, const Eigen::Vecto
     Eigen::VectorXd sizes = sizes_of(phi, delta);
     sizes = sizes.cwiseMax(kFloor * sizes.maxCoeff());
     const Eigen::VectorXcd directions = weights.cwiseQuotient(sizes).cast<Complex>().cwiseProduct(phi.conjugate());
-    return parallel_sum<Eigen::VectorXcd>(
-        static_cast<int>(basis.rows()), Eigen::VectorXcd::Zero(basis.cols()),
-        [&](int first, int last) -> Eigen::VectorXcd {
-            const int count = last - first;
-            return basis.middleRows(first, count).transpose() * directions.segment(first, count);
-        },
-        kDualPoints);
+    return transposed_times_columns(basis, directions);
 }
 
 double dilatation_of_pairing(double S) {
@@ -122,7 +102,7 @@ namespace {
 class OwnNorm final : public DualNorm {
   public:
     explicit OwnNorm(const DualProblem& problem) : problem_(problem) {}
-    Eigen::VectorXcd values(const Eigen::VectorXcd& c) const override { return combination(problem_.basis, c); }
+    Eigen::VectorXcd values(const Eigen::VectorXcd& c) const override { return times_columns(problem_.basis, c); }
     double norm(const Eigen::VectorXcd& phi, double delta) const override {
         return problem_.weights.dot(sizes_of(phi, delta));
     }
@@ -258,7 +238,7 @@ class TiltedNorm {
                 end.converged = slope > -kGradientTolerance * scale;
                 break;
             }
-            const Eigen::VectorXcd phi_step = combination(problem_.basis, view_.unpack(direction));
+            const Eigen::VectorXcd phi_step = times_columns(problem_.basis, view_.unpack(direction));
             // At the level of rounding no step need descend.
             const bool flat = -slope < kGradientTolerance * scale;
             double length = 1;
@@ -371,7 +351,7 @@ DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& star
         along = p.squaredNorm();
     }
     Eigen::VectorXd x = view.pack(c) / along;
-    Eigen::VectorXcd coarse_phi = combination(problem.basis, view.unpack(x));
+    Eigen::VectorXcd coarse_phi = times_columns(problem.basis, view.unpack(x));
     const double total = problem.weights.sum();
     const auto mean_size = [&] { return total > 0 ? problem.weights.dot(sizes_of(coarse_phi, 0)) / total : 0.0; };
     const double delta = problem.rounding * mean_size();
@@ -436,7 +416,7 @@ DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& star
                 }
             }
             if (accepted) x += length * direction;
-            if (length < 1) coarse_phi = combination(problem.basis, view.unpack(x));
+            if (length < 1) coarse_phi = times_columns(problem.basis, view.unpack(x));
             const double moved = length * direction.norm() / x.norm();
             // What another round would still change.
             const double rate = round == 0 ? kFirstRate : std::min(1.0, moved / last_moved);
