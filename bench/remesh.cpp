@@ -1,21 +1,23 @@
 // Remeshing with the connectivity kept: what the faces' shapes become, against tangential relaxation and the
 // least-squares maps of Gruber and Aulisa.
 //
-//     bench_remesh [--features DEGREES] [--holes N] [--noise A] [--fixed-border] [--out FOLDER] MESH... [--part EDGE]
+//     bench_remesh [--features DEGREES] [--holes N [--rings N]] [--noise A] [--fixed-border] [--out FOLDER] MESH...
+//     [--part EDGE]
 //                  [--double-torus EDGE]
 //     bench_remesh --speed MESH...
 //
-// As in docs/remesh.md: the noisy torus is torus.obj with --noise .3 --holes 19 --fixed-border, the part
-// --features 40 --noise .3 --part .08, the double torus --double-torus .14. --speed measures least-squares maps and
-// steps alone, of meshes of any size: --speed --double-torus .0205 has 100 000 faces.
+// As in docs/remesh.md: the noisy torus is torus.obj with --noise .28 --holes 19 --rings 1,
+// its border fixed --fixed-border, the part --features 40 --noise .3 --part .08, the double torus --double-torus .14.
+// --speed measures least-squares maps and steps alone, of meshes of any size: --speed --double-torus .0205 has 100 000
+// faces.
 //
-// --holes cuts N disks of two rings at farthest points, --noise moves vertices by A of their shortest edge along the
-// surface first, not those of features; --out has data of pictures for gallery/draw.py; --part is the plate of
-// cad_part.h, --double-torus that of generate/. Where CGAL is (libcgal-dev), its isotropic remeshing stands beside, at
-// .98 of the mean edge, ten iterations: it changes the connectivity. Then what a harmonic map of the mesh takes and the
-// others are in units of it, in seconds of the processor. One line a method: angles (smallest / 1 % / median and mean
-// deviation from 60 or 90 degrees), |μ| (mean / std / max), faces that oppose the surface, largest distance from it and
-// its mean of the diagonal, area ratio, linear systems, seconds.
+// --holes cuts N disks of two rings (--rings) at farthest points, --noise moves vertices by A of their shortest edge
+// along the surface first, not those of features; --out has data of pictures for gallery/draw.py; --part is the plate
+// of cad_part.h, --double-torus that of generate/. Where CGAL is (libcgal-dev), its isotropic remeshing stands beside,
+// at .98 of the mean edge, ten iterations: it changes the connectivity. Then what a harmonic map of the mesh takes and
+// the others are in units of it, in seconds of the processor. One line a method: angles (smallest / 1 % / median and
+// mean deviation from 60 or 90 degrees), |μ| (mean / std / max), faces that oppose the surface, largest distance from
+// it and its mean of the diagonal, area ratio, linear systems, seconds.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -272,7 +274,7 @@ void measure(const std::string& name, const Mesh& mesh, const RemeshOptions& giv
 
 int main(int argc, char** argv) {
     RemeshOptions options;
-    int holes = 0;
+    int holes = 0, rings = 2;
     double noise = 0;
     bool speed_alone = false;
     fmt::print(
@@ -281,7 +283,7 @@ int main(int argc, char** argv) {
         "systems | s |\n| --- | --- | --- | --- | --- | --- | --- | --- |\n");
     const auto prepared = [&](const std::string& name, Mesh mesh) {
         if (noise > 0) mesh = with_noise(mesh, noise, options.feature_angle);
-        if (holes > 0) mesh = with_holes(mesh, holes);
+        if (holes > 0) mesh = with_holes(mesh, holes, rings);
         speed_alone ? measure_speed(name, mesh) : measure(name, mesh, options);
     };
     try {
@@ -291,6 +293,8 @@ int main(int argc, char** argv) {
                 options.feature_angle = std::stod(argv[++i]) * std::numbers::pi / 180;
             else if (!std::strcmp(argv[i], "--holes") && more)
                 holes = std::stoi(argv[++i]);
+            else if (!std::strcmp(argv[i], "--rings") && more)
+                rings = std::stoi(argv[++i]);
             else if (!std::strcmp(argv[i], "--noise") && more)
                 noise = std::stod(argv[++i]);
             else if (!std::strcmp(argv[i], "--out") && more)

@@ -112,7 +112,7 @@ Mesh sphere_with_holes() {
     return part_of(octahedral_sphere(5), [](const Eigen::Vector3d& p) { return p.cwiseAbs().maxCoeff() < 0.93; });
 }
 
-Mesh with_holes(const Mesh& mesh, int holes) {
+Mesh with_holes(const Mesh& mesh, int holes, int rings) {
     std::vector<int> seeds{0};
     Eigen::VectorXd away(mesh.vertex_count());
     for (int v = 0; v < mesh.vertex_count(); ++v) away[v] = (mesh.point(v) - mesh.point(0)).norm();
@@ -126,7 +126,7 @@ Mesh with_holes(const Mesh& mesh, int holes) {
     std::vector<char> vertex(static_cast<std::size_t>(mesh.vertex_count()), 0),
         face(static_cast<std::size_t>(mesh.face_count()), 0);
     for (const int v : seeds) vertex[v] = 1;
-    for (int ring = 0; ring < 2; ++ring) {
+    for (int ring = 0; ring < rings; ++ring) {
         for (int f = 0; f < mesh.face_count(); ++f)
             for (const int v : mesh.faces[f])
                 if (vertex[v]) face[f] = 1;

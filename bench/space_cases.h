@@ -33,7 +33,7 @@ Mesh torus_with_hole();
 Mesh sphere_with_holes();
 
 /// Mesh less the faces within two rings of so many vertices, each the farthest from those before.
-Mesh with_holes(const Mesh& mesh, int holes);
+Mesh with_holes(const Mesh& mesh, int holes, int rings = 2);
 
 /// Which vertices are on borders and features.
 std::vector<char> on_curves(const Mesh& mesh, const Topology& combinatorics, std::optional<double> angle);

@@ -66,9 +66,10 @@ SurfaceLocator::Place SurfaceLocator::on_triangle(int triangle, const Eigen::Vec
     return {triangle, weights, (there - point).norm()};
 }
 
-SurfaceLocator::Place SurfaceLocator::nearest(const Eigen::Vector3d& point) const {
+SurfaceLocator::Place SurfaceLocator::nearest(const Eigen::Vector3d& point, int guess) const {
     Place best;
     best.distance = std::numeric_limits<double>::infinity();
+    if (guess >= 0) best = on_triangle(guess, point);
     // The distance of a node's box is known where it is put aside.
     struct Aside {
         int node;

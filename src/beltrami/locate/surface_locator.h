@@ -27,7 +27,10 @@ class SurfaceLocator {
 
     /// Of several nearest triangles the first.
     /// @param point finite
-    Place nearest(const Eigen::Vector3d& point) const;
+    Place nearest(const Eigen::Vector3d& point) const { return nearest(point, -1); }
+    /// The same, found sooner.
+    /// @param guess a triangle that may be near, or −1
+    Place nearest(const Eigen::Vector3d& point, int guess) const;
 
   private:
     using Box = std::array<Eigen::Array3d, 2>;

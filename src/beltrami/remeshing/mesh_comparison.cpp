@@ -98,13 +98,17 @@ SurfaceDistance surface_distance(const MeshTarget& a, const MeshTarget& b) {
     return {std::max(there.largest, back.largest), 0.5 * (there.mean + back.mean)};
 }
 
-std::vector<int> opposed_faces(const Mesh& mesh, const MeshTarget& surface) {
+std::vector<int> opposed_faces(const Mesh& mesh, const MeshTarget& surface, const Target::Points& points) {
     std::vector<char> opposed(static_cast<std::size_t>(mesh.face_count()), 0);
     parallel_for(
         0, mesh.face_count(),
         [&](int first, int last) {
-            for (int f = first; f < last; ++f)
-                opposed[f] = !(face_vector_area(mesh, f).dot(surface.nearest(middle_of(mesh, f)).normal) > 0);
+            for (int f = first; f < last; ++f) {
+                const Eigen::Vector3d middle = middle_of(mesh, f);
+                const Target::Point there =
+                    points.empty() ? surface.nearest(middle) : surface.retract(middle, points[mesh.faces[f][0]]);
+                opposed[f] = !(face_vector_area(mesh, f).dot(there.normal) > 0);
+            }
         },
         kGrain);
     std::vector<int> result;

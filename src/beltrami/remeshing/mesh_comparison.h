@@ -28,7 +28,8 @@ struct SurfaceDistance {
 SurfaceDistance surface_distance(const MeshTarget& a, const MeshTarget& b);
 
 /// Faces whose normal opposes that of a surface near which they lie, at the point nearest to their middle.
-std::vector<int> opposed_faces(const Mesh& mesh, const MeshTarget& surface);
+/// @param points #V where the vertices lie on it, or none: the same is found sooner
+std::vector<int> opposed_faces(const Mesh& mesh, const MeshTarget& surface, const Target::Points& points = {});
 
 /// Σ of the faces' areas (of their vector areas).
 double surface_area(const Mesh& mesh);

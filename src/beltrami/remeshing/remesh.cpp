@@ -40,22 +40,6 @@ double diagonal_of(const Mesh& mesh) {
     return (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).norm();
 }
 
-/// Vertices of faces whose normal opposes that of one of their vertices: nothing is known of the surface there.
-std::vector<int> at_opposed_corners(const Mesh& mesh) {
-    const Positions normals = vertex_normals(mesh);
-    std::vector<char> held(static_cast<std::size_t>(mesh.vertex_count()), 0);
-    for (int f = 0; f < mesh.face_count(); ++f) {
-        const Eigen::Vector3d up = face_vector_area(mesh, f);
-        const auto v = mesh.faces[f];
-        if (std::any_of(v.begin(), v.end(), [&](int i) { return normals.row(i).dot(up) < 0; }))
-            for (const int i : v) held[i] = 1;
-    }
-    std::vector<int> result;
-    for (int v = 0; v < mesh.vertex_count(); ++v)
-        if (held[v]) result.push_back(v);
-    return result;
-}
-
 Positions points_of(const Mesh& mesh, const std::vector<int>& vertices) {
     Positions points(static_cast<Eigen::Index>(vertices.size()), 3);
     for (std::size_t i = 0; i < vertices.size(); ++i)
@@ -63,15 +47,16 @@ Positions points_of(const Mesh& mesh, const std::vector<int>& vertices) {
     return points;
 }
 
-/// What stays and what slides.
-TargetConstraints constraints_of(const Surface& surface, const RemeshOptions& options) {
+/// What stays and what slides. Of faces that oppose the surface, of which nothing is known there, the vertices stay.
+TargetConstraints constraints_of(const Surface& surface, const MeshTarget& target, const RemeshOptions& options) {
     const Mesh& mesh = surface.mesh;
     std::vector<std::array<int, 2>> seams;
     if (options.keep_seams) seams = seam_edges(mesh);
     const FeatureCurves features = feature_curves(mesh, surface.topology, options.feature_angle, seams);
     std::vector<char> fixed(static_cast<std::size_t>(mesh.vertex_count()), 0);
     for (const int v : features.corners) fixed[v] = 1;
-    for (const int v : at_opposed_corners(mesh)) fixed[v] = 1;
+    for (const int f : opposed_faces(mesh, target))
+        for (const int v : mesh.faces[f]) fixed[v] = 1;
     if (!options.slide_border)
         for (const auto& loop : surface.topology.boundary_loops)
             for (const int v : loop) fixed[v] = 1;
@@ -197,7 +182,7 @@ class Rounds {
 
     /// @return vertices that are too far away, or in faces that newly oppose the surface
     std::vector<int> draw_back(TangentialMap& map, double growth) const {
-        std::vector<int> bad = around_newly_opposed(map.positions());
+        std::vector<int> bad = around_newly_opposed(map);
         map.draw_back(bad);
         const std::vector<int> strayed = map.hold_within(allowed_, growth);
         bad.insert(bad.end(), strayed.begin(), strayed.end());
@@ -217,11 +202,11 @@ class Rounds {
     }
 
     /// Vertices of faces that oppose the surface and did not at the start.
-    std::vector<int> around_newly_opposed(Positions positions) const {
+    std::vector<int> around_newly_opposed(const TangentialMap& map) const {
         Mesh image = surface_.mesh;
-        image.positions = std::move(positions);
+        image.positions = map.positions();
         std::vector<int> vertices;
-        for (const int f : opposed_faces(image, target_)) {
+        for (const int f : opposed_faces(image, target_, map.points())) {
             if (std::binary_search(opposed_before_.begin(), opposed_before_.end(), f)) continue;
             vertices.insert(vertices.end(), image.faces[f].begin(), image.faces[f].end());
         }
@@ -303,7 +288,7 @@ RemeshedSurface remesh(const Surface& surface, const Positions& reference, const
                                            std::to_string(surface.mesh.vertex_count()) + " vertices");
     const CornerElements elements = corner_elements(surface.mesh, reference);
     const MeshTarget target(surface.mesh);
-    const TargetConstraints constraints = constraints_of(surface, options);
+    const TargetConstraints constraints = constraints_of(surface, target, options);
     if (options.fast) return fast(surface, elements, target, constraints);
 
     RemeshedSurface result;

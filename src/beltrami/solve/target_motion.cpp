@@ -46,12 +46,13 @@ std::vector<int> TargetMotion::indices_of_moving() const {
     return indices;
 }
 
-TargetMotion::Directions TargetMotion::directions(int vertex, const TargetMap& map) const {
+TargetMotion::Directions TargetMotion::directions(int vertex, const TargetMap& map,
+                                                  const Eigen::Vector3d& across) const {
     const Eigen::Vector3d none = Eigen::Vector3d::Zero();
     if (unknowns_[vertex] == 0) return {none, none};
     if (const int i = slide_[vertex]; i >= 0)
         return {constraints_.curves[constraints_.sliding[i].curve]->tangent(map.parameters[i]), none};
-    const TangentFrame frame(target_.across(map.points[vertex]));
+    const TangentFrame frame(across);
     return {frame.first, frame.second};
 }
 

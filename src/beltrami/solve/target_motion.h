@@ -22,7 +22,9 @@ class TargetMotion {
 
     /// Directions of a vertex's two unknowns, of length 1: the second is 0 where a vertex slides, both where it stays.
     using Directions = std::array<Eigen::Vector3d, 2>;
-    Directions directions(int vertex, const TargetMap& map) const;
+    /// @param across of length 1, what a vertex that is free moves at right angles to: the target's normal there, or
+    ///               that of its face
+    Directions directions(int vertex, const TargetMap& map, const Eigen::Vector3d& across) const;
     /// 0 to 2 unknowns a vertex.
     const std::vector<signed char>& unknowns() const { return unknowns_; }
     /// #V: the number of a vertex among those that move, −1 elsewhere.

@@ -100,7 +100,8 @@ std::optional<Positions> TargetStep::direction(const TargetEnergy& energy, const
     std::vector<TargetMotion::Directions> ways;
     ways.reserve(place_.size());
     for (std::size_t v = 0; v < place_.size(); ++v) {
-        TargetMotion::Directions way = motion_.directions(static_cast<int>(v), map);
+        TargetMotion::Directions way =
+            motion_.directions(static_cast<int>(v), map, motion_.target().across(map.points[v]));
         for (Eigen::Vector3d& direction : way) direction *= units[static_cast<Eigen::Index>(v)];
         ways.push_back(way);
     }

@@ -35,7 +35,6 @@ SurfaceGap::SurfaceGap(const Mesh& start, const Target& target)
         seen[v] = 1;
     }
     near_image_.assign(of_start_.size(), -1);
-    near_target_.assign(middles_.size(), {-1, -1, -1});
 }
 
 /// Those of triangles, then those of edges, each once.
@@ -86,7 +85,7 @@ void SurfaceGap::from_start(const Positions& image, const Triangles& triangles, 
         0, count,
         [&](int first, int last) {
             for (int i = first; i < last; ++i) {
-                const int t = only_triangles_ ? near_image_[i] : -1;
+                const int t = near_image_[i];
                 far[i] = t < 0 || !(distance_from(point_of(of_start_[i], start_), corner(t, 0), corner(t, 1),
                                                   corner(t, 2)) <= distance);
             }
@@ -99,7 +98,7 @@ void SurfaceGap::from_start(const Positions& image, const Triangles& triangles, 
         [&](int first, int last) {
             for (int i = first; i < last; ++i) {
                 if (!far[i]) continue;
-                const SurfaceLocator::Place place = locator.nearest(point_of(of_start_[i], start_));
+                const SurfaceLocator::Place place = locator.nearest(point_of(of_start_[i], start_), near_image_[i]);
                 near_image_[i] = place.triangle;
                 far[i] = place.distance > distance;
             }
@@ -110,17 +109,21 @@ void SurfaceGap::from_start(const Positions& image, const Triangles& triangles, 
 /// @param far #samples
 void SurfaceGap::from_image(const Positions& image, const Samples& samples, double distance, std::vector<char>& far) {
     const Mesh* const mesh = target_.mesh();
+    // Of quads that are cut along the other diagonal now the triangles remembered are others', but triangles still.
+    near_target_.resize(samples.size());
     parallel_for(
         0, static_cast<int>(samples.size()),
         [&](int first, int last) {
             for (int i = first; i < last; ++i) {
                 const Vector3 point = point_of(samples[i], image);
-                if (mesh && only_triangles_ && near_target_[i][0] >= 0) {
-                    const auto& [a, b, c] = near_target_[i];
+                Target::Point before;
+                before.place = near_target_[i];
+                if (mesh && before.place.face >= 0) {
+                    const auto& [a, b, c] = before.place.vertices;
                     if (distance_from(point, mesh->point(a), mesh->point(b), mesh->point(c)) <= distance) continue;
                 }
-                const Target::Point nearest = target_.nearest(point);
-                if (only_triangles_) near_target_[i] = nearest.place.vertices;
+                const Target::Point nearest = mesh ? target_.retract(point, before) : target_.nearest(point);
+                near_target_[i] = nearest.place;
                 far[i] = (nearest.position - point).norm() > distance;
             }
         },

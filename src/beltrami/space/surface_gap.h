@@ -10,7 +10,8 @@ namespace beltrami {
 
 /// Where a mesh and its image on a target are farther apart than allowed, both ways: the mesh (its vertices, the
 /// middles of its edges and triangles) from the image, and the image (the same middles) from the target. What was near
-/// a triangle when it was last asked is looked for there first, so that asking again takes little.
+/// a triangle when it was last asked is looked for there first, so that asking again takes little. Quads are cut as
+/// their shape asks for, those of the image anew each time.
 class SurfaceGap {
   public:
     /// @param start  kept by reference, as the target is
@@ -39,9 +40,9 @@ class SurfaceGap {
     Positions start_;  // #V×3
     bool only_triangles_ = true;
     Triangles triangles_;
-    Samples of_start_, middles_;                   // of the start; those of its middles alone
-    std::vector<int> near_image_;                  // of_start_: the triangle of the image that was nearest
-    std::vector<std::array<int, 3>> near_target_;  // middles_: corners of the target's, if it is a mesh
+    Samples of_start_, middles_;          // of the start; those of its middles alone
+    std::vector<int> near_image_;         // of_start_: the triangle of the image that was nearest
+    std::vector<MeshPoint> near_target_;  // of the image's middles: the place that was, if the target is a mesh
 };
 
 }  // namespace beltrami

@@ -89,27 +89,24 @@ TangentialMap::TangentialMap(const Surface& start, const Operators& reference, c
       place_(motion_.indices_of_moving()),
       system_(system_of(reference, place_)),
       gradient_(system_.unknown_count()) {
-    find_cusps();
+    follow_cusps();
     set_quadrics(start.mesh);
     const Positions points = positions(), normals = normals_of(map_.points);
     for (int s = 0; s < operators_.sample_count(); ++s) area_[s] = std::abs(jacobian(frame(s, points, normals)));
 }
 
-void TangentialMap::find_cusps() {
-    const Positions points = positions(), normals = normals_of(map_.points);
-    for (int s = 0; s < operators_.sample_count(); ++s) {
-        Vector3 up = Vector3::Zero();
-        for (const int v : operators_.stencil(s)) up += normals.row(v).transpose();
-        const Vector3 own = normal_of(image_frame(operators_, s, points, normals));
-        cusp_[s] = own.dot(up.normalized()) < kCusp;
-        if (cusp_[s]) own_normal_.row(s) = own;
-    }
-}
-
+/// Before the normals at its vertices turn against a face that no step has folded: it would hold up all others.
 void TangentialMap::follow_cusps() {
     const Positions points = positions(), normals = normals_of(map_.points);
-    for (int s = 0; s < operators_.sample_count(); ++s)
-        if (cusp_[s]) own_normal_.row(s) = normal_of(image_frame(operators_, s, points, normals));
+    for (int s = 0; s < operators_.sample_count(); ++s) {
+        const Vector3 own = normal_of(image_frame(operators_, s, points, normals));
+        if (!cusp_[s]) {
+            Vector3 up = Vector3::Zero();
+            for (const int v : operators_.stencil(s)) up += normals.row(v).transpose();
+            cusp_[s] = own.dot(up.normalized()) < kCusp;
+        }
+        if (cusp_[s]) own_normal_.row(s) = own;
+    }
 }
 
 void TangentialMap::set_quadrics(const Mesh& start) {
@@ -304,7 +301,9 @@ void TangentialMap::equilibrate(std::vector<TargetMotion::Directions>& ways) con
 Positions TangentialMap::direction(const BarrierEnergy& energy) {
     std::vector<TargetMotion::Directions> ways;
     ways.reserve(place_.size());
-    for (std::size_t v = 0; v < place_.size(); ++v) ways.push_back(motion_.directions(static_cast<int>(v), map_));
+    // Across the normal, not the face: vertices that run along ridges would come to rest there.
+    for (std::size_t v = 0; v < place_.size(); ++v)
+        ways.push_back(motion_.directions(static_cast<int>(v), map_, map_.points[v].normal));
     Eigen::VectorXd solution;
     double shift = kTangentialShift;
     for (bool solved = false; !solved; shift *= 100) {

@@ -29,8 +29,8 @@ namespace beltrami {
 /// its area there: free in the faces' planes and along ridges. κ_v is 0 until hold_within() raises it. Steps are those
 /// of Gauss and Newton with Levenberg's and Marquardt's damping by the motion in units of h_v.
 ///
-/// A face's orientation is judged by the normals of the target at its vertices. Where these say nothing at the start,
-/// at cusps, the face is followed by its own normal.
+/// A face's orientation is judged by the normals of the target at its vertices. Where these come to say nothing, at
+/// cusps, the face is followed by its own normal from then on.
 class TangentialMap {
   public:
     /// @param start     a mesh whose vertices are on the target, where the map begins; no face of it folds. Kept by
@@ -83,7 +83,6 @@ class TangentialMap {
     ImageFrame frame(int sample, const Positions& points, const Positions& normals) const;
     double value(const BarrierEnergy& energy, const TargetMap& map) const;
     double drawn_back(const Positions& points) const;
-    void find_cusps();
     void follow_cusps();
     void set_quadrics(const Mesh& start);
     void assemble(const BarrierEnergy& energy, const std::vector<TargetMotion::Directions>& ways);

@@ -36,6 +36,9 @@ MeshTarget::MeshTarget(Mesh mesh)
       triangles_(as_triangles(mesh_.faces, in_space(mesh_), face_of_triangle_)),
       locator_(mesh_.positions, triangles_) {
     triangle_of_vertex_ = first_triangles(triangles_, mesh_.vertex_count());
+    triangle_of_face_.assign(static_cast<std::size_t>(mesh_.face_count()), -1);
+    for (std::size_t t = face_of_triangle_.size(); t-- > 0;)
+        triangle_of_face_[face_of_triangle_[t]] = static_cast<int>(t);
 }
 
 Eigen::Vector3d MeshTarget::normal(const MeshPoint& place) const {
@@ -59,9 +62,16 @@ Target::Point MeshTarget::at_vertex(int vertex) const {
     return at(place);
 }
 
-Target::Point MeshTarget::nearest(const Eigen::Vector3d& point) const {
-    const SurfaceLocator::Place found = locator_.nearest(point);
+Target::Point MeshTarget::in_triangle(const SurfaceLocator::Place& found) const {
     return at({face_of_triangle_[found.triangle], triangles_[found.triangle], found.barycentric});
+}
+
+Target::Point MeshTarget::nearest(const Eigen::Vector3d& point) const {
+    return in_triangle(locator_.nearest(point));
+}
+
+Target::Point MeshTarget::retract(const Eigen::Vector3d& moved, const Point& from) const {
+    return in_triangle(locator_.nearest(moved, from.place.face < 0 ? -1 : triangle_of_face_[from.place.face]));
 }
 
 Eigen::Vector3d MeshTarget::across(const Point& point) const {

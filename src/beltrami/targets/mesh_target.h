@@ -18,6 +18,8 @@ class MeshTarget final : public Target {
 
     /// Of several nearest places that in the triangle that comes first.
     Point nearest(const Eigen::Vector3d& point) const override;
+    /// The nearest, looked for around the face where the point was.
+    Point retract(const Eigen::Vector3d& moved, const Point& from) const override;
     Eigen::Vector3d across(const Point& point) const override;
     /// Its boundary loops as polylines.
     SlideCurves boundary() const override;
@@ -29,10 +31,11 @@ class MeshTarget final : public Target {
 
   private:
     Eigen::Vector3d normal(const MeshPoint& place) const;
+    Point in_triangle(const SurfaceLocator::Place& found) const;
 
     Mesh mesh_;
     Positions normals_;
-    std::vector<int> face_of_triangle_, triangle_of_vertex_;
+    std::vector<int> face_of_triangle_, triangle_of_vertex_, triangle_of_face_;
     std::vector<std::array<int, 3>> triangles_;
     SurfaceLocator locator_;
 };

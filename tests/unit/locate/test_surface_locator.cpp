@@ -49,6 +49,11 @@ TEST(SurfaceLocator, IsNeverBeatenByAnotherPointOfTheSurface) {
         const Eigen::Vector3d p(coordinate(random), coordinate(random), coordinate(random));
         const SurfaceLocator::Place place = locator.nearest(p);
         EXPECT_NEAR((position(mesh, place) - p).norm(), place.distance, 1e-14);
+        for (const int guess : {0, 17, mesh.face_count() - 1}) {
+            const SurfaceLocator::Place again = locator.nearest(p, guess);
+            EXPECT_EQ(again.triangle, place.triangle);
+            EXPECT_EQ(again.barycentric, place.barycentric);
+        }
         double least = std::numeric_limits<double>::infinity();
         for (int f = 0; f < mesh.face_count(); ++f)
             for (int n = 0; n < 20; ++n) {

@@ -284,6 +284,30 @@ TEST(Remesh, APuncturedTorus) {
     EXPECT_TRUE(eight.unresolved.empty());
 }
 
+// Of quads, with fins whose ridges turn by more than a right angle: there a face must not hold up all others.
+TEST(Remesh, LargeAFishOfQuads) {
+    const auto path = test::real_mesh("fish_quad.obj");
+    if (path.empty()) GTEST_SKIP();
+    Mesh mesh = read_mesh(path.string()).mesh;
+    mesh.texture.reset();
+    const Surface surface(mesh);
+    RemeshOptions options;
+    const RemeshedSurface four = remesh(surface, regular_shapes(mesh.faces), options);
+    const AngleStatistics angles = angles_of(mesh, four.positions);
+    EXPECT_GT(angles.one_percent, 0.95 * 54.1);
+    EXPECT_LT(angles.mean_deviation, 1.05 * 11.3);
+    EXPECT_LT(four.distance, 1.4 * 0.003);
+    EXPECT_TRUE(four.unresolved.empty());
+    EXPECT_LT(four.factorizations, 60);
+    options.open_angles = true;
+    const RemeshedSurface opened = remesh(surface, regular_shapes(mesh.faces), options);
+    const AngleStatistics worst = angles_of(mesh, opened.positions);
+    EXPECT_GT(worst.smallest, 50);
+    EXPECT_GT(worst.one_percent, 60);
+    EXPECT_LT(opened.distance, 1.4 * 0.003);
+    EXPECT_TRUE(opened.unresolved.empty());
+}
+
 // Horns and ears so coarse that faces oppose the surface already: there are not more of them afterwards, and they are
 // named.
 TEST(Remesh, LargeACowDoesNotGetMoreOpposedFaces) {

@@ -86,7 +86,7 @@ TEST(TargetMotion, KeepsTheRimOnItsCircle) {
     const TargetMap map = target_map(source, plane, constraints, source.mesh.positions);
     Positions turn = Positions::Zero(source.mesh.vertex_count(), 3);
     for (const int v : source.topology.boundary_loops[0]) {
-        const Eigen::Vector3d way = motion.directions(v, map)[0];
+        const Eigen::Vector3d way = motion.directions(v, map, map.points[v].normal)[0];
         EXPECT_LT(std::abs(way.dot(map.points[v].position)), 1e-12);
         turn.row(v) = 0.3 * way.transpose();
     }

@@ -59,6 +59,21 @@ TEST(MeshTarget, MovesPointsAsTheirMotionSays) {
     EXPECT_EQ(target.across(target.at_vertex(5)), target.at_vertex(5).normal);
 }
 
+TEST(MeshTarget, FindsTheNearestPointFromWhereverItBegins) {
+    const Mesh mesh = torus(2, 1, 24, 12, Cells::quads);
+    const MeshTarget target(mesh);
+    for (int v = 0; v < mesh.vertex_count(); v += 5) {
+        const Eigen::Vector3d moved = mesh.point(v) + Eigen::Vector3d(0.4, -0.3, 0.2);
+        const Target::Point nearest = target.nearest(moved);
+        for (const int from : {v, 0, mesh.vertex_count() - 1}) {
+            const Target::Point found = target.retract(moved, target.at_vertex(from));
+            EXPECT_EQ(found.position, nearest.position);
+            EXPECT_EQ(found.place.vertices, nearest.place.vertices);
+        }
+        EXPECT_EQ(target.retract(moved, Target::Point()).position, nearest.position);
+    }
+}
+
 TEST(MeshTarget, KeepsItsOwnVertices) {
     const Mesh mesh = icosahedral_sphere(3);
     const MeshTarget target(mesh);
