@@ -16,16 +16,16 @@ namespace beltrami {
 namespace {
 
 /// Edges of the shorter loop to a turn of e^{inw}.
-constexpr int kEdgesPerUnrolledTurn = 3;
-constexpr int kLeastUnrolledDegree = 3, kMostUnrolledDegree = 16;
+constexpr double kEdgesPerUnrolledTurn = 2.66;
+constexpr int kLeastUnrolledDegree = 3, kMostUnrolledDegree = 18;
 constexpr double kUnrolledTolerance = 1e-3, kUnrolledToleranceOfK = 1e-5;
-constexpr int kMostUnrolledIterations = 40;
+constexpr int kMostUnrolledIterations = 50;
 constexpr int kUnrolledClusters = 1500;
 
 int degree_of_strip(const Surface& source) {
     const auto& loops = source.topology.boundary_loops;
     const int edges = static_cast<int>(std::min(loops[0].size(), loops[1].size()));
-    return std::clamp(edges / kEdgesPerUnrolledTurn, kLeastUnrolledDegree, kMostUnrolledDegree);
+    return std::clamp(static_cast<int>(edges / kEdgesPerUnrolledTurn), kLeastUnrolledDegree, kMostUnrolledDegree);
 }
 
 }  // namespace
