@@ -205,11 +205,11 @@ class TiltedNorm {
 
     /// Makes @p hessian (lower triangle) the Hessian at @p x.
     void bend(const Eigen::VectorXd& x, const Eigen::VectorXcd& phi, const Eigen::VectorXd& reach,
-              Eigen::MatrixXd hessian) {
+              const Eigen::MatrixXd& hessian) {
         const Eigen::MatrixXd more = hessian - own_hessian(phi, reach);
         bend_ = more.selfadjointView<Eigen::Lower>();
         bent_at_ = x;
-        wanted_ = std::move(hessian);
+        wanted_ = hessian;
         same_hessian_ = false;
     }
 
@@ -291,13 +291,16 @@ class TiltedNorm {
     /// @return false if the Hessian is not definite
     bool set_hessian(const Eigen::VectorXcd& phi, const Eigen::VectorXd& reach) {
         Eigen::MatrixXd hessian = own_hessian(phi, reach);
-        if (bend_.size() == 0) return factorize(std::move(hessian));
-        // Far from where it was bent the sum need not be definite: then that of the place itself serves.
+        if (bend_.size() == 0) return factorize(hessian);
         hessian += bend_;
-        return factorize(std::move(hessian)) || factorize(wanted_);
+        if (factorize(hessian)) return true;
+        // Far from where it was bent the sum need not be definite: then that of the place itself serves.
+        hessian = wanted_;
+        return factorize(hessian);
     }
 
-    bool factorize(Eigen::MatrixXd hessian) {
+    /// @param hessian lower triangle; changed
+    bool factorize(Eigen::MatrixXd& hessian) {
         // x itself is a null direction (the norm is homogeneous of degree one). On the hyperplane a multiple of p pᵀ
         // changes nothing and makes the matrix definite; the tiny shift is for functions that no quadrature point sees.
         const double mean_diagonal = hessian.trace() / static_cast<double>(p_.size());
@@ -378,9 +381,9 @@ DualSolution solve_dual(const DualProblem& problem, const Eigen::VectorXcd& star
         bool trusted = true;
         int flat_rounds = 0;
         const auto bend = [&] {
-            Eigen::MatrixXd hessian = fine.hessian(phi, delta, reach);
+            const Eigen::MatrixXd hessian = fine.hessian(phi, delta, reach);
             solution.bent = hessian.rows() > 0;
-            if (solution.bent) coarse.bend(x, coarse_phi, reach, std::move(hessian));
+            if (solution.bent) coarse.bend(x, coarse_phi, reach, hessian);
         };
         if (options.bent) bend();
         for (int round = 0; solution.newton_steps < options.max_steps; ++round) {
