@@ -326,7 +326,7 @@ class TiltedNorm {
     Eigen::MatrixXd wanted_;   ///< the Hessian there, lower triangle
     Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> cholesky_;
     Eigen::VectorXd by_constraint_;
-    Eigen::VectorXd storage_;    ///< of dual_hessian()
+    Eigen::VectorXd storage_;    ///< of hessian_of_rows()
     bool same_hessian_ = false;  ///< the next step takes the one at hand
     double rate_ = 1;            ///< what a step is expected to leave, as part of it: the last two steps' ratio
 };

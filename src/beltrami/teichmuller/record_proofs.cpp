@@ -95,12 +95,6 @@ void add_proofs(const Surface& source, const BoundaryCondition& boundary, const 
     result.bounds.insert(result.bounds.end(), proved.bounds.begin(), proved.bounds.end());
 }
 
-void record_proofs(const Surface& source, const BoundaryCondition& boundary, const ExtremalOptions& options,
-                   ExtremalMap& result) {
-    add_proofs(source, boundary, options, result);
-    raise_to_proofs(result);
-}
-
 void add_finer_pair(const Surface& source, const BoundaryCondition& boundary, double known, ExtremalMap& result) {
     RefinedPairOptions how;
     // Where K is no more than what is proved, φ does not show how much more there is.
@@ -110,11 +104,6 @@ void add_finer_pair(const Surface& source, const BoundaryCondition& boundary, do
     const RefinedPair pair = refined_pair_bound(source, boundary, result.map, how);
     result.factorizations += pair.factorizations;
     raise_pair(pair.K, result);
-}
-
-void record_finer_pair(const Surface& source, const BoundaryCondition& boundary, ExtremalMap& result) {
-    add_finer_pair(source, boundary, result.K_lower, result);
-    raise_to_proofs(result);
 }
 
 }  // namespace beltrami

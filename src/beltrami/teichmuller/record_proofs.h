@@ -7,16 +7,11 @@ namespace beltrami {
 /// Adds what can be proved about K* (proved_bounds.h) to the bounds of a result.
 void add_proofs(const Surface& source, const BoundaryCondition& boundary, const ExtremalOptions& options,
                 ExtremalMap& result);
-/// The same, and raise_to_proofs().
-void record_proofs(const Surface& source, const BoundaryCondition& boundary, const ExtremalOptions& options,
-                   ExtremalMap& result);
 
 /// Adds the pair bound of refined meshes (refined_pair.h), which is up to 8 % larger where values crowd, to the bounds.
 /// Not of quads, of meshes of more than 20 000 faces, nor where the bracket is closed.
 /// @param known a lower bound that there is
 void add_finer_pair(const Surface& source, const BoundaryCondition& boundary, double known, ExtremalMap& result);
-/// The same beside K_lower, and raise_to_proofs().
-void record_finer_pair(const Surface& source, const BoundaryCondition& boundary, ExtremalMap& result);
 
 /// The largest of K_lower, of what the bounds prove, and of what quadrilaterals force in the chart.
 double largest_known(const ExtremalMap& result);

@@ -118,7 +118,8 @@ TEST(Proofs, PairsOnRefinedMeshesProveMore) {
     const ExtremalMap result = extremal_map(surface, boundary);
     ExtremalMap finer = result;
     finer.K_lower = 1;  // as if φ showed nothing
-    record_finer_pair(surface, boundary, finer);
+    add_finer_pair(surface, boundary, finer.K_lower, finer);
+    raise_to_proofs(finer);
     expect_ordered(finer);
     EXPECT_GT(value_of(finer, Bound::Kind::pair), value_of(result, Bound::Kind::pair) + 0.001);
     EXPECT_LT(value_of(finer, Bound::Kind::pair), 3.0292);  // verified from above for these polygons
